@@ -13,14 +13,14 @@
 #include <vector>
 
 #include "fsm/image/image_codec.h"
+#include "fsm/mesh/align_imported_head.h"
 #include "fsm/mesh/gltf/gltf_head.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/imported_model.h"
-#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/obj/obj_file.h"
 #include "fsm/mesh/original/original_face.h"
 #include "fsm/mesh/original/pnt_file.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/transferred_rig.h"
 #include "fsm/rig/reach.h"
 
@@ -61,7 +61,7 @@ bool IsFinite(glm::vec3 p) {
 
 /// The ball as a head whose lower half a mouth parameter pulls down.
 std::unique_ptr<fsm::Head> HeadOf(const Ball& ball) {
-  fsm::MeshModel model;
+  fsm::UnriggedHead model;
   fsm::RigData skin = fsm::MakeStillSkin();
   skin.steps = {fsm::RigStep::kChannels};
   fsm::Channel fall;
@@ -72,7 +72,7 @@ std::unique_ptr<fsm::Head> HeadOf(const Ball& ball) {
   }
   skin.channels = {fall};
   model.mesh.BatchOf(fsm::Material::kSkin, -1, false).indices = ball.triangles;
-  return fsm::MakeMeshHead(std::move(model), std::move(skin));
+  return fsm::RigUnriggedHead(std::move(model), std::move(skin));
 }
 
 /// Makes a head of the file, lays the rig of the ball on it and moves it. Whatever its numbers are,
@@ -81,7 +81,7 @@ void CarryOnto(const fsm::ImportedHead& file, const fsm::Similarity& place,
                std::span<const fsm::PointPair> pairs) {
   static const std::unique_ptr<fsm::Head> source = HeadOf(Ball());
   try {
-    fsm::MeshModel model = fsm::ModelOfImport(file, place, -43);
+    fsm::UnriggedHead model = fsm::AlignImportedHead(file, place, -43);
     if (model.mesh.bone.size() != model.mesh.position.size()) __builtin_trap();
     for (const glm::vec3& p : model.mesh.position) {
       if (!IsFinite(p)) __builtin_trap();
@@ -90,7 +90,7 @@ void CarryOnto(const fsm::ImportedHead& file, const fsm::Similarity& place,
     if (model.mesh.position.size() > kMaxCarried || flesh.size() + eyes.size() > kMaxCarried)
       return;
     fsm::RigData skin = fsm::TransferRig(model, *source, pairs);
-    const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
+    const auto head = fsm::RigUnriggedHead(std::move(model), std::move(skin));
     fsm::FaceState state;
     state.mouth[fsm::kLowerInnerY] = 3;
     state.au.left[27] = state.au.right[12] = state.seal = state.blink.left = 1;

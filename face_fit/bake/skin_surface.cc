@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/surface/triangles.h"
-#include "fsm/head/photo_wear.h"
+#include "fsm/head/photo_surface.h"
 
 namespace facefit {
 

@@ -12,10 +12,10 @@
 #include "fsm/faces/table_check.h"
 #include "fsm/head/anatomy.h"
 #include "fsm/head/make_head.h"
+#include "fsm/mesh/align_imported_head.h"
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/imported_model.h"
-#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/mesh_limits.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/blendshape_rig.h"
 #include "fsm/mesh/rigging/transferred_rig.h"
 #include "fsm/motion/face_motion.h"
@@ -114,7 +114,7 @@ Similarity ScaledAbout(glm::vec3 from, float scale, glm::vec3 to) {
 /// the upper part is taken as the head.
 Alignment AlignByOutline(const ImportedHead& file) {
   Alignment alignment;
-  const MeshModel raw = ModelOfImport(file, {}, 0);
+  const UnriggedHead raw = AlignImportedHead(file, {}, 0);
   if (raw.has_eyes) {
     const glm::vec3 apart = raw.eye_rig.centre.left - raw.eye_rig.centre.right;
     const glm::vec3 middle = 0.5f * (raw.eye_rig.centre.right + raw.eye_rig.centre.left);
@@ -143,7 +143,7 @@ Alignment AlignmentOf(const ImportedHead& file, const std::string& points) {
 /// Makes the rig from the file's own shapes; nothing if too few names are known.
 std::optional<RigData> RigOfShapes(const ImportedHead& file, const Alignment& alignment,
                                    const MotionTables& tables,
-                                   const std::optional<UnitTable>& units, MeshModel& model,
+                                   const std::optional<UnitTable>& units, UnriggedHead& model,
                                    std::vector<std::string>& unused) {
   const auto source = MakeHead(alignment.face, false);
   const auto other = units ? source->WithUnits(*units) : nullptr;
@@ -181,7 +181,7 @@ FileHead MakeHeadOfFile(const std::string& path, const TableFolder& tables_folde
   std::vector<std::string> notices = file.notices;
   const std::string points = path + ".points";
   const Alignment alignment = AlignmentOf(file, points);
-  MeshModel model = ModelOfImport(file, alignment.to_ours, alignment.mouth_y);
+  UnriggedHead model = AlignImportedHead(file, alignment.to_ours, alignment.mouth_y);
   std::optional<RigData> skin;
   if (!file.shapes.empty()) {
     const MotionTables tables = vm::OrThrow(MotionTables::Load(tables_folder));
@@ -204,8 +204,8 @@ FileHead MakeHeadOfFile(const std::string& path, const TableFolder& tables_folde
   for (const std::string& what : notices) {
     made.notice += (made.notice.empty() ? "'" : "; '") + path + "': " + what;
   }
-  made.head = skin ? MakeMeshHead(std::move(model), std::move(*skin))
-                   : WithUnits(units, MakeMeshHead(std::move(model)));
+  made.head = skin ? RigUnriggedHead(std::move(model), std::move(*skin))
+                   : WithUnits(units, RigUnriggedHead(std::move(model)));
   return made;
 }
 

@@ -4,11 +4,11 @@
 #include <stdexcept>
 
 #include "fsm/faces/face_of_name.h"
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/original/convert_original_face.h"
 #include "fsm/mesh/original/original_expressions.h"
 #include "fsm/mesh/original/original_face.h"
-#include "fsm/mesh/original/original_model.h"
 #include "fsm/mesh/original/original_motion.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/motion/inputs/motion_tables.h"
 #include "fsm/motion/mouth_motion.h"
 #include "vm_protocol/core/or_throw.h"
@@ -30,9 +30,9 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   }
   for (const Viseme& viseme : motion.set(VisemeSetId::k14).visemes)
     mouths.push_back(viseme.pose.mouth);
-  MeshModel model = ModelOfOriginal(*face);
+  UnriggedHead model = ConvertOriginalFace(*face);
   RigData skin = RigOfOriginal(*face, model, mouths, kFullMouth);
-  return WithUnits(UnitsIn(tables), MakeMeshHead(std::move(model), std::move(skin)));
+  return WithUnits(UnitsIn(tables), RigUnriggedHead(std::move(model), std::move(skin)));
 }
 
 /// Returns the first missing file; "" if none is missing.

@@ -31,7 +31,7 @@ ClothRing ClothRingOf(const std::array<float, 1 + 3 * kPoints>& n) {
 
 /// The collar shades the skin beside it.
 void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std::size_t skin,
-               HeadMesh& mesh) {
+               MeshBuilder& mesh) {
   const float reach = features.shirt_shade.reach;
   for (std::size_t i = 0; i < skin; ++i) {
     float nearest = 1e9f;
@@ -43,7 +43,7 @@ void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std:
 }
 
 /// Returns how far the neck turns beside a point of the cloth.
-float NeckWeightBeside(glm::vec3 p, std::size_t skin, const HeadMesh& mesh) {
+float NeckWeightBeside(glm::vec3 p, std::size_t skin, const MeshBuilder& mesh) {
   const auto nearest = std::ranges::min_element(std::span(mesh.position).first(skin), {},
                                                 [p](glm::vec3 q) { return glm::distance(p, q); });
   return mesh.weights[static_cast<std::size_t>(nearest - std::span(mesh.position).begin())]
@@ -53,7 +53,7 @@ float NeckWeightBeside(glm::vec3 p, std::size_t skin, const HeadMesh& mesh) {
 /// Returns how far each point of a ring of the cloth turns with the neck, evenly along the ring,
 /// for the skin's own weights step from vertex to vertex.
 std::vector<float> NeckWeights(std::span<const glm::vec3> ring, std::size_t skin,
-                               const HeadMesh& mesh) {
+                               const MeshBuilder& mesh) {
   std::vector<float> weights;
   for (const glm::vec3 p : ring) weights.push_back(NeckWeightBeside(p, skin, mesh));
   constexpr int kRounds = 12;
@@ -69,7 +69,7 @@ std::vector<float> NeckWeights(std::span<const glm::vec3> ring, std::size_t skin
 /// Draws the skin below the collar's edge in, so that it does not come through the cloth. `collar`:
 /// points all around.
 void TuckNeck(const Features& features, std::span<const glm::vec3> collar, std::size_t skin,
-              HeadMesh& mesh) {
+              MeshBuilder& mesh) {
   glm::vec3 axis(0);
   for (const glm::vec3 q : collar) axis += q / static_cast<float>(collar.size());
   const auto outward = [axis](glm::vec3 p) { return glm::vec2(p.x, p.z - axis.z); };
@@ -151,7 +151,7 @@ class ClothSurface {
 
 }  // namespace
 
-void BuildCloth(const Identity& identity, HeadMesh& mesh) {
+void BuildCloth(const Identity& identity, MeshBuilder& mesh) {
   const Features& features = *identity.features;
   const ClothSurface surface(features);
   constexpr int kAround = ClothSurface::kAround;

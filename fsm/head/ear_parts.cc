@@ -118,7 +118,7 @@ namespace {
 /// One ear as rings of vertices from its middle to the rim, then around its back into the head.
 class EarBuilder {
  public:
-  EarBuilder(const Identity& identity, Side side, HeadMesh& mesh)
+  EarBuilder(const Identity& identity, Side side, MeshBuilder& mesh)
       : features_(*identity.features),
         blush_(identity.palette.blush * features_.ear_blush.dark),
         colour_(glm::mix(identity.palette.skin, identity.palette.blush, features_.ear_blush.part)),
@@ -187,13 +187,13 @@ class EarBuilder {
   glm::vec3 blush_, colour_;
   Ear ear_;
   Side side_;
-  HeadMesh& mesh_;
+  MeshBuilder& mesh_;
   std::vector<Ring> rings_;
 };
 
 }  // namespace
 
-void BuildEars(const Identity& identity, HeadMesh& mesh) {
+void BuildEars(const Identity& identity, MeshBuilder& mesh) {
   for (const Side side : kSides) EarBuilder(identity, side, mesh).Build();
 }
 

@@ -4,12 +4,12 @@
 #include <glm/vec3.hpp>
 #include <utility>
 
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/mesh_builder.h"
 
 namespace fsm {
 
-void BuildEars(const Identity& identity, HeadMesh& mesh);
+void BuildEars(const Identity& identity, MeshBuilder& mesh);
 /// Returns the highest, lowest, foremost and rearmost point of the base head's left ear in
 /// its own plane.
 std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks(const Features& features);

@@ -45,7 +45,7 @@ std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Identity& identity) 
 
 }  // namespace
 
-void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) {
+void BuildEyes(const EyeAnatomy& eye, const Identity& identity, MeshBuilder& mesh) {
   constexpr int kSegments = 22;
   const auto rings = Rings(eye, identity);
   const float fibres = identity.features->iris_fibres;

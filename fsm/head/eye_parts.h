@@ -1,11 +1,11 @@
 #pragma once
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/mesh_builder.h"
 
 namespace fsm {
 
-void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh);
+void BuildEyes(const EyeAnatomy& eye, const Identity& identity, MeshBuilder& mesh);
 
 }  // namespace fsm

@@ -20,7 +20,7 @@ namespace {
 class CropShape {
  public:
   /// `skin`: only read here; the identity outlives this. REQUIRES: identity.crop.
-  CropShape(const Identity& identity, const HeadMesh& skin)
+  CropShape(const Identity& identity, const MeshBuilder& skin)
       : style_(*identity.crop),
         hair_(identity.features->crop_hair),
         look_(identity),
@@ -118,7 +118,7 @@ class CropShape {
 /// Adds the hair of that shape to a mesh.
 class CropBuilder {
  public:
-  CropBuilder(const Identity& identity, HeadMesh& mesh)
+  CropBuilder(const Identity& identity, MeshBuilder& mesh)
       : style_(*identity.crop),
         hair_(identity.features->crop_hair),
         palette_(identity.palette),
@@ -219,16 +219,16 @@ class CropBuilder {
   const Palette& palette_;
   const HairLook look_;
   const CropShape shape_;
-  HeadMesh& mesh_;
+  MeshBuilder& mesh_;
 };
 
 }  // namespace
 
-void BuildCroppedHair(const Identity& identity, HeadMesh& mesh) {
+void BuildCroppedHair(const Identity& identity, MeshBuilder& mesh) {
   CropBuilder(identity, mesh).Build();
 }
 
-std::vector<SkinStroke> CroppedHairline(const Identity& identity, const HeadMesh& skin) {
+std::vector<SkinStroke> CroppedHairline(const Identity& identity, const MeshBuilder& skin) {
   return CropShape(identity, skin).Hairline();
 }
 

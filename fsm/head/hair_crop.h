@@ -2,15 +2,15 @@
 
 #include <vector>
 
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/mesh_builder.h"
 
 namespace fsm {
 
 /// Adds short hair all around. REQUIRES: identity.crop.
-void BuildCroppedHair(const Identity& identity, HeadMesh& mesh);
+void BuildCroppedHair(const Identity& identity, MeshBuilder& mesh);
 /// Returns single hairs on the skin beside the edge of the hair, so that it does not begin at a
 /// line. `skin`: before it takes the identity's form.
-std::vector<SkinStroke> CroppedHairline(const Identity& identity, const HeadMesh& skin);
+std::vector<SkinStroke> CroppedHairline(const Identity& identity, const MeshBuilder& skin);
 
 }  // namespace fsm

@@ -23,7 +23,7 @@ class LongShape {
   static constexpr float kCap = 0.58f, kEnd = 1.0f;
 
   /// `skin`: only read here; the identity outlives this.
-  LongShape(const Identity& identity, const HeadMesh& skin)
+  LongShape(const Identity& identity, const MeshBuilder& skin)
       : style_(identity.long_hair),
         hair_(identity.features->long_hair),
         volume_(hair_.volume.half_axes + style_.full_mm),
@@ -191,7 +191,7 @@ class LongShape {
 /// Adds the hair of that shape to a mesh.
 class LongHairBuilder {
  public:
-  LongHairBuilder(const Identity& identity, HeadMesh& mesh)
+  LongHairBuilder(const Identity& identity, MeshBuilder& mesh)
       : style_(identity.long_hair),
         hair_(identity.features->long_hair),
         palette_(identity.palette),
@@ -359,16 +359,16 @@ class LongHairBuilder {
   const Palette& palette_;
   const HairLook look_;
   const LongShape shape_;
-  HeadMesh& mesh_;
+  MeshBuilder& mesh_;
 };
 
 }  // namespace
 
-void BuildLongHair(const Identity& identity, HeadMesh& mesh) {
+void BuildLongHair(const Identity& identity, MeshBuilder& mesh) {
   LongHairBuilder(identity, mesh).Build();
 }
 
-std::vector<SkinStroke> LongHairline(const Identity& identity, const HeadMesh& skin) {
+std::vector<SkinStroke> LongHairline(const Identity& identity, const MeshBuilder& skin) {
   return LongShape(identity, skin).Hairline();
 }
 

@@ -13,7 +13,7 @@
 
 namespace fsm {
 
-Scalp::Scalp(const HeadMesh& mesh) {
+Scalp::Scalp(const MeshBuilder& mesh) {
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 d = mesh.position[i] - kHairCentre;
     const float length = glm::length(d);
@@ -69,7 +69,7 @@ float HairLook::AboveHairline(glm::vec3 p) const {
          HairlineElevation(glm::degrees(std::atan2(d.x, d.z)));
 }
 
-void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const {
+void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, MeshBuilder& mesh) const {
   const float lowest = features_.hair_on_skin.lowest;
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
@@ -88,7 +88,7 @@ void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMe
 }
 
 void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, int seed,
-                       HeadMesh& mesh) const {
+                       MeshBuilder& mesh) const {
   const float streaks = features_.lock_streaks, root_light = features_.lock_root_light;
   std::array<std::uint32_t, 2> before{};
   const int last = static_cast<int>(path.size()) - 1;

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/mesh_builder.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -18,7 +18,7 @@ inline constexpr glm::vec3 kHairCentre{0, 44, -9};
 /// The skin under the hair, as the distance from kHairCentre by direction.
 class Scalp {
  public:
-  explicit Scalp(const HeadMesh& mesh);
+  explicit Scalp(const MeshBuilder& mesh);
   float Distance(glm::vec3 direction) const;
   /// Returns the point `lift` millimetres above the skin in that direction.
   glm::vec3 Over(glm::vec3 direction, float lift) const;
@@ -55,9 +55,9 @@ class HairLook {
   glm::vec3 StrandColour(int strand, int row) const;
   /// Adds a lock: a strip along `path` that frays at its sides and towards its tip.
   void AddLock(std::span<const glm::vec3> path, const LockStyle& style, int seed,
-               HeadMesh& mesh) const;
+               MeshBuilder& mesh) const;
   /// Darkens the skin under the hair and beside its edge, which passes through `edge`.
-  void ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const;
+  void ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, MeshBuilder& mesh) const;
   /// Returns a hair painted on the skin from `root` (unit direction from kHairCentre) along
   /// `along`. `strength`: 1 = full; a smaller one is shorter and paler.
   SkinStroke OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,

@@ -10,7 +10,7 @@ namespace fsm {
 
 HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const SliderWarp& sliders,
                    const Warp* warp, const std::optional<Sided<EyeTransform>>& eye_transforms,
-                   const HeadMesh& base, const EyeTransform& left_eye)
+                   const MeshBuilder& base, const EyeTransform& left_eye)
     : eye_(eye), mouth_(mouth), sliders_(sliders), warp_(warp) {
   if (eye_transforms) {
     eye_transforms_ = *eye_transforms;
@@ -45,7 +45,7 @@ glm::vec3 HeadForm::Motion(glm::vec3 p) const {
   return warp_ ? by + warp_->Motion(p + by) : by;
 }
 
-float HeadForm::TeethTooFar(const HeadMesh& base) const {
+float HeadForm::TeethTooFar(const MeshBuilder& base) const {
   constexpr float kRoom = 1.3f, kMax = 8;
   float most = 0;
   for (const ToothArch& arch : {mouth_.upper_teeth(), mouth_.lower_teeth()}) {
@@ -59,7 +59,7 @@ float HeadForm::TeethTooFar(const HeadMesh& base) const {
   return std::min(most, kMax);
 }
 
-void HeadForm::Shape(HeadMesh& mesh) const {
+void HeadForm::Shape(MeshBuilder& mesh) const {
   using Follows = BakeWeights::Follows;
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const BakeWeights& weights = mesh.weights[i];

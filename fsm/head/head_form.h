@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/mesh_builder.h"
 #include "fsm/head/warp.h"
 #include "fsm/rig/eye_transform.h"
 
@@ -20,10 +20,10 @@ class HeadForm {
   /// this form.
   HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const SliderWarp& sliders,
            const Warp* warp, const std::optional<Sided<EyeTransform>>& eye_transforms,
-           const HeadMesh& base, const EyeTransform& left_eye = {});
+           const MeshBuilder& base, const EyeTransform& left_eye = {});
 
   /// Moves all vertices, each with what it follows.
-  void Shape(HeadMesh& mesh) const;
+  void Shape(MeshBuilder& mesh) const;
 
   const Sided<EyeTransform>& eye_transforms() const { return eye_transforms_; }
   const TeethTransform& teeth() const { return teeth_; }
@@ -32,7 +32,7 @@ class HeadForm {
   glm::vec3 Motion(glm::vec3 p) const;
   /// Returns how far the teeth must move back, in millimetres, for the lips of a warped head to
   /// have the same room as on the base head.
-  float TeethTooFar(const HeadMesh& base) const;
+  float TeethTooFar(const MeshBuilder& base) const;
 
   const EyeAnatomy& eye_;
   const MouthAnatomy& mouth_;

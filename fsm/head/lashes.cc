@@ -16,7 +16,7 @@ namespace {
 class LashBuilder {
  public:
   LashBuilder(const EyeAnatomy& eye, const Identity& identity, bool of_photo, Side side,
-              HeadMesh& mesh)
+              MeshBuilder& mesh)
       : eye_(eye),
         features_(*identity.features),
         palette_(identity.palette),
@@ -131,14 +131,15 @@ class LashBuilder {
   float size_;
   bool of_photo_;
   float side_;
-  HeadMesh& mesh_;
+  MeshBuilder& mesh_;
   BakeWeights weights_;
   bool upper_ = true;
 };
 
 }  // namespace
 
-void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh) {
+void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo,
+                 MeshBuilder& mesh) {
   for (const Side side : kSides) {
     LashBuilder builder(eye, identity, of_photo, side, mesh);
     builder.Row(true);

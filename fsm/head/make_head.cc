@@ -25,13 +25,13 @@
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/hair_springs.h"
 #include "fsm/head/head_form.h"
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/lashes.h"
+#include "fsm/head/mesh_builder.h"
 #include "fsm/head/mouth_parts.h"
 #include "fsm/head/photo_head.h"
-#include "fsm/head/photo_wear.h"
+#include "fsm/head/photo_surface.h"
 #include "fsm/head/skin_mesh.h"
 #include "fsm/head/skin_strokes.h"
 #include "fsm/head/subdivide.h"
@@ -70,7 +70,7 @@ struct BaseSkin {
   Cage cage;
   FineSkin fine;
   MouthLandmarks mouth;  ///< without incisors
-  HeadMesh mesh;
+  MeshBuilder mesh;
 };
 
 BaseSkin MakeSkin(const Ingredients& from) {
@@ -88,7 +88,7 @@ struct BaseParts {
     std::ranges::move(strokes, std::back_inserter(skin_strokes));
   }
 
-  HeadMesh mesh;
+  MeshBuilder mesh;
   std::vector<SkinStroke> skin_strokes;
 };
 
@@ -97,7 +97,7 @@ void AddBrowsAndFolds(const Ingredients& from, const SkinFront& front, BaseParts
   parts.Add(BuildLidFolds(front, from.eye, from.identity));
 }
 
-void AddEyesAndMouth(const Ingredients& from, HeadMesh& mesh) {
+void AddEyesAndMouth(const Ingredients& from, MeshBuilder& mesh) {
   BuildEyes(from.eye, from.identity, mesh);
   BuildTeeth(from.mouth, from.identity, mesh);
   BuildTongue(from.mouth, from.identity, mesh);
@@ -105,7 +105,7 @@ void AddEyesAndMouth(const Ingredients& from, HeadMesh& mesh) {
 
 /// The head in its own form; hair is added to it.
 struct FormedHead {
-  FormedHead(const HeadForm& form, const HeadMesh& base_mesh)
+  FormedHead(const HeadForm& form, const MeshBuilder& base_mesh)
       : mesh(base_mesh),
         base(base_mesh.position),
         eyes(form.eye_transforms()),
@@ -113,7 +113,7 @@ struct FormedHead {
     form.Shape(mesh);
   }
 
-  HeadMesh mesh;
+  MeshBuilder mesh;
   std::vector<glm::vec3> base;  ///< rest form of the base head without hair
   Sided<EyeTransform> eyes;
   TeethTransform teeth;  ///< relative to the base head
@@ -121,7 +121,7 @@ struct FormedHead {
 
 /// Warps the base face to the person in a photo.
 FormedHead WarpToPhoto(const Ingredients& from, const PhotoHead& photo, const BaseSkin& skin,
-                       const HeadMesh& base) {
+                       const MeshBuilder& base) {
   const Warp warp(photo.points, photo.smooth);
   FormedHead head(HeadForm(from.eye, from.mouth, from.sliders, &warp, photo.eyes, base), base);
   LeaveOutUnseen(photo, skin.fine.tag, head.mesh);
@@ -213,8 +213,8 @@ HeadAsset AssetOf(const Ingredients& from, const BaseSkin& skin, const BaseParts
 }
 
 /// Maps the photo onto the skin, evaluated with lids open and shut.
-void Wear(const PhotoHead& photo, const Ingredients& from, const BaseSkin& skin,
-          const FormedHead& formed, HeadAsset& asset) {
+void MapPhoto(const PhotoHead& photo, const Ingredients& from, const BaseSkin& skin,
+              const FormedHead& formed, HeadAsset& asset) {
   const std::size_t count = skin.mesh.position.size();
   const Rig rig(asset.rig);
   HeadVertices open, shut;
@@ -227,7 +227,7 @@ void Wear(const PhotoHead& photo, const Ingredients& from, const BaseSkin& skin,
   };
   const PhotoSkin worn{std::span(formed.mesh.weights).first(count), skin.fine.tag, pose(open),
                        pose(shut)};
-  WearPhoto(photo, worn, from.identity.palette.lip_inside, asset.surface);
+  ApplyPhoto(photo, worn, from.identity.palette.lip_inside, asset.surface);
 }
 
 }  // namespace

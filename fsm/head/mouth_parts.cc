@@ -41,7 +41,7 @@ class ToothRow {
     float light;                        // light on the central teeth
     glm::vec3 tooth;                    // enamel colour
   };
-  ToothRow(Jaw jaw, const Identity& identity, HeadMesh& mesh)
+  ToothRow(Jaw jaw, const Identity& identity, MeshBuilder& mesh)
       : jaw_(std::move(jaw)),
         features_(*identity.features),
         gum_(identity.palette.gum),
@@ -163,13 +163,13 @@ class ToothRow {
   const Jaw jaw_;
   const Features& features_;
   const glm::vec3 gum_;
-  HeadMesh& mesh_;
+  MeshBuilder& mesh_;
   std::vector<Column> columns_;  // from the agent's right to the left
 };
 
 }  // namespace
 
-void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
+void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, MeshBuilder& mesh) {
   const Features& features = *identity.features;
   const glm::vec3 tooth = identity.palette.tooth;
   ToothRow(
@@ -186,7 +186,7 @@ void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& m
       .Add();
 }
 
-void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
+void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, MeshBuilder& mesh) {
   const Features& features = *identity.features;
   const Palette& palette = identity.palette;
   // A rounded back over a flat underside along the floor of the mouth. The row's number gives the

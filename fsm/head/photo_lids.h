@@ -8,7 +8,7 @@
 #include "fsm/head/cage.h"
 #include "fsm/head/face_light.h"
 #include "fsm/head/features.h"
-#include "fsm/head/head_mesh.h"
+#include "fsm/head/mesh_builder.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {

@@ -147,7 +147,7 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
 }  // namespace
 
 MouthLandmarks BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                         const Identity& identity, HeadMesh& mesh) {
+                         const Identity& identity, MeshBuilder& mesh) {
   const SkinPainter painter(identity, eye);
   const HairLook hair(identity);
   std::vector<SkinKind> kind(skin.position.size(), SkinKind::kSkin);

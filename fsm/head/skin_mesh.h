@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/mesh_builder.h"
 #include "fsm/head/subdivide.h"
 
 namespace fsm {
@@ -13,7 +13,7 @@ namespace fsm {
 /// Adds the subdivided skin with paint and rig to an empty mesh; vertex i of the skin becomes
 /// vertex i of the mesh. Returns the landmarks of the mouth, to which FindIncisors adds.
 MouthLandmarks BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                         const Identity& identity, HeadMesh& mesh);
+                         const Identity& identity, MeshBuilder& mesh);
 
 /// The front of the skin as seen from the viewer, on which other parts are placed.
 class SkinFront {

@@ -109,7 +109,7 @@ class BrowBuilder {
 }  // namespace
 
 std::vector<SkinStroke> BuildBrows(const SkinFront& front, const Identity& identity,
-                                   HeadMesh& mesh) {
+                                   MeshBuilder& mesh) {
   const BrowShape shape(identity);
   // The soft tone of the skin between the hairs.
   const float tone = identity.features->brow_tone;

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/mesh_builder.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/skin_mesh.h"
 
@@ -12,7 +12,7 @@ namespace fsm {
 
 /// Tones the skin under the brows and returns their hairs.
 std::vector<SkinStroke> BuildBrows(const SkinFront& front, const Identity& identity,
-                                   HeadMesh& mesh);
+                                   MeshBuilder& mesh);
 /// Returns the fold of each upper lid, as strokes to be painted on the skin.
 std::vector<SkinStroke> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,
                                       const Identity& identity);

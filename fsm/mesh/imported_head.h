@@ -10,7 +10,7 @@
 
 #include "fsm/image/image.h"
 #include "fsm/mesh/head_points.h"
-#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/unrigged_head.h"
 #include "fsm/rig/face_state.h"
 
 namespace fsm {
@@ -48,7 +48,7 @@ struct ImportedHead {
   std::vector<PbrMaterial> pbr_materials;
   std::vector<Shape> shapes;
   std::vector<std::optional<Side>> eye;  ///< the eye that a vertex belongs to; per vertex, or empty
-  EyeRig eye_rig;                        ///< without centres, which ModelOfImport finds
+  EyeRig eye_rig;                        ///< without centres, which AlignImportedHead finds
   SpringRig spring_rig;                  ///< see VrmSprings
   bool gaze_by_shape = false;  ///< shapes (vrmlookleft ...) move the eyes, which do not rotate
   std::vector<std::string> notices;      ///< sentences about what was left out

@@ -14,10 +14,10 @@
 #include "fsm/head/face_channels.h"
 #include "fsm/head/make_head.h"
 #include "fsm/image/image_codec.h"
+#include "fsm/mesh/align_imported_head.h"
 #include "fsm/mesh/gltf/gltf_head.h"
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/imported_model.h"
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/blendshape_rig.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/pose.h"
@@ -335,7 +335,7 @@ TEST(VrmTest, HairOfAnAvatarSwingsAsItsHeadTurns) {
       R"({"bones":[0]}]}})"));
   constexpr float kMillimetres = 1000;
   const Similarity place{.scale = kMillimetres, .translation = {0, -1500, 0}};
-  const auto head = MakeMeshHead(ModelOfImport(file, place, -43));
+  const auto head = RigUnriggedHead(AlignImportedHead(file, place, -43));
   const RigData& rig = head->rig().data();
   ASSERT_EQ(rig.spring_rig.springs.size(), 4U);
   Simulation simulation(rig.spring_rig.springs);
@@ -357,12 +357,14 @@ TEST(VrmTest, SpringsOfTheBodyAreLeftOut) {
   const ImportedHead file = Read(
       HairAvatar(R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":1,"bones":[1]}]}})"));
   const Similarity place{.scale = 1000, .translation = {0, -2500, 0}};
-  EXPECT_TRUE(
-      MakeMeshHead(ModelOfImport(file, place, -43))->rig().data().spring_rig.springs.empty());
+  EXPECT_TRUE(RigUnriggedHead(AlignImportedHead(file, place, -43))
+                  ->rig()
+                  .data()
+                  .spring_rig.springs.empty());
 }
 
 TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
-  MeshModel model;
+  UnriggedHead model;
   model.has_eyes = true;
   model.eye_rig.centre.right = {-30, 0, 60};
   model.eye_rig.centre.left = {30, 0, 60};
@@ -372,7 +374,7 @@ TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
     model.Add(p, Bone::kEyeLeft, glm::vec3(1));
   }
   model.mesh.Triangle(Material::kSkin, 0, 1, 2);
-  const auto head = MakeMeshHead(std::move(model));
+  const auto head = RigUnriggedHead(std::move(model));
   FaceState state;
   state.gaze.left[kToRight] = 20;  // to the viewer's right, outward for the agent's left eye
   HeadVertices moved;
@@ -394,13 +396,13 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
     file.shapes.push_back({"vrm" + std::string(name), {}});
   }
   file.shapes[0].moves = {{0, {0, -10, 0}}, {1, {0, -10, 0}}, {2, {0, -10, 0}}};
-  MeshModel model = ModelOfImport(file, {}, -30);
+  UnriggedHead model = AlignImportedHead(file, {}, -30);
   ASSERT_EQ(model.mesh.bone[0], Bone::kJaw);
   const auto source = MakeHead("galatea", false);
   auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
   ASSERT_TRUE(skin);
   EXPECT_EQ(model.mesh.bone[0], Bone::kSkin);
-  const auto head = MakeMeshHead(std::move(model), std::move(*skin));
+  const auto head = RigUnriggedHead(std::move(model), std::move(*skin));
   HeadVertices moved;
   head->Evaluate(meanings[0].state, moved);
   EXPECT_NEAR(moved.position[0].y, -50, 0.5F);
@@ -420,7 +422,7 @@ ImportedHead OfShapes(std::initializer_list<const char*> names) {
 
 /// The rig of a file by some of ARKit's shapes, and which shapes it leaves out.
 struct OwnShapes {
-  explicit OwnShapes(const ImportedHead& file) : model(ModelOfImport(file, {}, -43)) {
+  explicit OwnShapes(const ImportedHead& file) : model(AlignImportedHead(file, {}, -43)) {
     const auto source = MakeHead("galatea", false);
     const auto add = [&](const char* name, std::size_t unit, bool right, bool left) {
       FaceState state;
@@ -438,7 +440,7 @@ struct OwnShapes {
     skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source, {}, &unused);
   }
   std::vector<ShapeMeaning> meanings;
-  MeshModel model;
+  UnriggedHead model;
   std::vector<std::string> unused;
   std::optional<RigData> skin;
 };
@@ -449,7 +451,7 @@ TEST(OwnShapesTest, HalvesOfAShapeOfBothSidesAreDrivenByTheirSide) {
   OwnShapes shapes(file);
   EXPECT_EQ(shapes.unused, (std::vector<std::string>{"Smirk"}));
   ASSERT_TRUE(shapes.skin);
-  const auto head = MakeMeshHead(std::move(shapes.model), std::move(*shapes.skin));
+  const auto head = RigUnriggedHead(std::move(shapes.model), std::move(*shapes.skin));
   const auto rises = [&](std::size_t unit, bool right, bool left) {
     FaceState state;
     state.au.right[unit] = right ? 1 : 0;
@@ -542,12 +544,12 @@ TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
     meanings.push_back({name, state});
     file.shapes.push_back({name, {{unit == 27 ? 0U : 3U, {0, unit == 27 ? -10 : 10, 0}}}});
   }
-  MeshModel model = ModelOfImport(file, {}, -30);
+  UnriggedHead model = AlignImportedHead(file, {}, -30);
   const auto source = FallingBall();
   auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
   ASSERT_TRUE(skin);
   const float rest = model.mesh.position[0].y;
-  const auto head = MakeMeshHead(std::move(model), std::move(*skin));
+  const auto head = RigUnriggedHead(std::move(model), std::move(*skin));
   const auto fall = [&](const FaceState& state) {
     HeadVertices moved;
     head->Evaluate(state, moved);

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-#include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/transfer/drive_fit.h"
+#include "fsm/mesh/unrigged_head.h"
 
 namespace fsm {
 namespace {
 
 /// A head of one vertex for each target, moved by 1 mm to the right for each weight of 1.
 std::unique_ptr<Head> HeadOf(std::vector<std::vector<Channel::Driver>> drivers) {
-  MeshModel model;
+  UnriggedHead model;
   RigData skin = MakeStillSkin();
   skin.steps = {RigStep::kChannels};
   for (auto& by : drivers) {
@@ -21,7 +21,7 @@ std::unique_ptr<Head> HeadOf(std::vector<std::vector<Channel::Driver>> drivers) 
   }
   while (model.mesh.position.size() < 3) model.Add(glm::vec3(0), Bone::kSkin, glm::vec3(1));
   model.mesh.Triangle(Material::kSkin, 0, 1, 2);
-  return MakeMeshHead(std::move(model), std::move(skin));
+  return RigUnriggedHead(std::move(model), std::move(skin));
 }
 
 float WeightOf(const Head& head, std::size_t target, const FaceState& state) {

@@ -7,11 +7,11 @@
 
 #include "fsm/asset/asset_writer.h"
 #include "fsm/head/make_head.h"
+#include "fsm/mesh/align_imported_head.h"
 #include "fsm/mesh/gltf/gltf_document.h"
 #include "fsm/mesh/gltf/gltf_head.h"
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/imported_model.h"
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/blendshape_rig.h"
 #include "fsm/rig/unit_table.h"
 #include "tests/fsm/ball_head.h"
@@ -85,9 +85,9 @@ TEST(GltfHeadTest, UnitsOfOnesOwnMoveAHeadByItsOwnShapes) {
   ASSERT_TRUE(file) << file.error().text;
   const Similarity place{.scale = 1000};
   const auto moved_as = [&](const Head& moved) -> std::unique_ptr<Head> {
-    MeshModel model = ModelOfImport(*file, place, -43);
+    UnriggedHead model = AlignImportedHead(*file, place, -43);
     auto skin = MakeBlendshapeRig(*file, place, model, {*source, meanings}, moved);
-    return skin ? MakeMeshHead(std::move(model), std::move(*skin)) : nullptr;
+    return skin ? RigUnriggedHead(std::move(model), std::move(*skin)) : nullptr;
   };
   const UnitTable units(Table("u", "jaw 26 6 0.75\nfield 2 43 47 20 20 both 0 5 0\n"));
   const auto head = moved_as(*source), own = moved_as(*source->WithUnits(units));

@@ -11,12 +11,12 @@
 
 #include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/original/convert_original_face.h"
 #include "fsm/mesh/original/original_expressions.h"
 #include "fsm/mesh/original/original_face.h"
-#include "fsm/mesh/original/original_model.h"
 #include "fsm/mesh/original/original_motion.h"
 #include "fsm/mesh/original/original_points.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/transfer/nnls_solver.h"
 #include "tests/support/test_data.h"
 
@@ -64,9 +64,9 @@ OriginalFace SmallFace() {
 }
 
 std::unique_ptr<Head> HeadOf(const OriginalFace& face, const VisemeMouths& mouths = {}) {
-  MeshModel model = ModelOfOriginal(face);
+  UnriggedHead model = ConvertOriginalFace(face);
   RigData skin = RigOfOriginal(face, model, mouths);
-  return MakeMeshHead(std::move(model), std::move(skin));
+  return RigUnriggedHead(std::move(model), std::move(skin));
 }
 
 TEST(SmallOriginalFaceTest, EyesComeToWhereOursAre) {
@@ -153,9 +153,9 @@ TEST(SmallOriginalFaceTest, AMouthSetByHandShowsTheMouthUnitOfThatNumber) {
   mouths[2] = {0.4F, 0, 0.5F, 0, -0.9F, 0, -0.8F, 0, 0, 0, 0, 9};
   MouthUnitSizes sizes{};
   sizes[11] = 15;
-  MeshModel model = ModelOfOriginal(face);
+  UnriggedHead model = ConvertOriginalFace(face);
   RigData skin = RigOfOriginal(face, model, mouths, sizes);
-  const auto head = MakeMeshHead(std::move(model), std::move(skin));
+  const auto head = RigUnriggedHead(std::move(model), std::move(skin));
   HeadVertices rest, moved;
   head->Evaluate({}, rest);
   FaceState state;

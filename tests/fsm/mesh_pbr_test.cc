@@ -11,7 +11,7 @@
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/gltf/gltf_head.h"
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/texture_atlas.h"
 #include "fsm/render/renderer.h"
 #include "tests/fsm/gltf_maker.h"
@@ -138,7 +138,7 @@ struct Plate {
 
 /// The colour on the screen in the middle of the plate. `front` light only comes from the viewer.
 glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0, 1}) {
-  MeshModel model;
+  UnriggedHead model;
   for (const auto& [x, y] : {std::pair(-1.0F, -1.0F), {1, -1}, {1, 1}, {-1, 1}}) {
     model.Add({50 * x, 50 * y, 80}, Bone::kSkull, glm::vec3(1),
               glm::vec2(0.5F + 0.5F * x, 0.5F - 0.5F * y));
@@ -156,7 +156,7 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
   auto& indices = model.mesh.BatchOf(Material::kSkin, 0, plate.two_sided).indices;
   indices = plate.faces_away ? std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2}
                              : std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3};
-  const auto head = MakeMeshHead(std::move(model));
+  const auto head = RigUnriggedHead(std::move(model));
   HeadVertices vertices;
   head->Evaluate({}, vertices);
   constexpr int kSide = 64;
@@ -243,14 +243,14 @@ TEST(PbrMaterialTest, OfTwoSidesBothAreSeenAndLit) {
 
 TEST(PbrMaterialTest, WhereATextureIsSewnTogetherTheNormalIsOne) {
   // A roof: its two slopes meet in doubled vertices.
-  MeshModel model;
+  UnriggedHead model;
   for (const glm::vec3 p :
        {glm::vec3(-10, 0, 0), {0, 0, 5}, {0, 10, 5}, {0, 0, 5}, {10, 0, 0}, {0, 10, 5}}) {
     model.Add(p, Bone::kSkull, glm::vec3(1));
   }
   model.pbr_materials.emplace_back();
   model.mesh.BatchOf(Material::kSkin, 0, false).indices = {0, 1, 2, 3, 4, 5};
-  const auto head = MakeMeshHead(std::move(model));
+  const auto head = RigUnriggedHead(std::move(model));
   HeadVertices vertices;
   head->Evaluate({}, vertices);
   EXPECT_EQ(vertices.normal[1], vertices.normal[3]);

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "fsm/mesh/align_imported_head.h"
 #include "fsm/mesh/gltf/gltf_head.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/transfer/deformation_transfer.h"
 #include "fsm/mesh/transfer/surface_index.h"
 #include "fsm/rig/reach.h"
@@ -70,7 +70,7 @@ TEST(MeshReachTest, LandmarksThatEnlargeAHeadBeyondReachAreRefusedWithItsName) {
   ASSERT_TRUE(file) << file.error().text;
   const auto refused = [&](const Similarity& place) -> std::string {
     try {
-      (void)ModelOfImport(*file, place, -43);
+      (void)AlignImportedHead(*file, place, -43);
     } catch (const std::runtime_error& error) {
       return error.what();
     }

@@ -18,7 +18,7 @@
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/transferred_rig.h"
 #include "fsm/mesh/transfer/deformation_transfer.h"
 #include "fsm/mesh/transfer/surface_index.h"
@@ -214,14 +214,14 @@ TEST_F(DeformationTransferTest, LipsAndLidsAreNeverTakenForEachOther) {
 /// The second face's skin as a mesh of another maker, moved by the rig of the first.
 TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEveryStateWould) {
   const auto onto = SkinTriangles(to_->surface());
-  MeshModel model;
+  UnriggedHead model;
   for (const glm::vec3& p : to_rest_.position) model.Add(p, Bone::kSkin, glm::vec3(1));
   model.mesh.BatchOf(Material::kSkin, -1, false).indices = onto;
   carry_ = std::make_unique<DeformationTransfer>(
       TransferSurface{from_rest_.position, flesh_, false, EyeballTriangles(from_->surface())},
       TransferSurface{to_rest_.position, onto, false, {}}, pairs_);
   RigData skin = TransferRig(model, *from_, pairs_);
-  const auto head = MakeMeshHead(std::move(model), std::move(skin));
+  const auto head = RigUnriggedHead(std::move(model), std::move(skin));
   const auto expect_carried = [&](const char* what, const FaceState& state) {
     HeadVertices a, b;
     from_->Evaluate(state, a);
@@ -253,7 +253,7 @@ TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEverySta
 }
 
 TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPart) {
-  MeshModel model;
+  UnriggedHead model;
   for (const glm::vec3& p : to_rest_.position) model.Add(p, Bone::kSkin, glm::vec3(0.5F));
   model.mesh.BatchOf(Material::kSkin, -1, false).indices = SkinTriangles(to_->surface());
   const HeadSurface& known = to_->surface();
@@ -266,7 +266,7 @@ TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPa
     }
   }
   RigData skin = TransferRig(model, *from_, pairs_);
-  const auto head = MakeMeshHead(std::move(model), std::move(skin));
+  const auto head = RigUnriggedHead(std::move(model), std::move(skin));
   const HeadSurface& topology = head->surface();
   const MouthLandmarks &mouth = head->mouth(), &known_mouth = to_->mouth();
   EXPECT_EQ(mouth.incisors->upper, known_mouth.incisors->upper);

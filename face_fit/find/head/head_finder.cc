@@ -15,8 +15,8 @@
 #include "face_fit/find/head/point_pairs.h"
 #include "face_fit/image/median.h"
 #include "fsm/base/box.h"
-#include "fsm/mesh/imported_model.h"
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/align_imported_head.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/transferred_rig.h"
 
 namespace facefit {
@@ -105,14 +105,14 @@ class HeadMatcher {
         base_lid_edges_(FindLidEdgesOfEyes(base_, EyeVertices(base_.surface()))) {}
   /// Returns none if no face is seen on the head when `to_base` is applied.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_base) {
-    fsm::MeshModel model = fsm::ModelOfImport(file_, to_base, fsm::kUsualMouthY);
+    fsm::UnriggedHead model = fsm::AlignImportedHead(file_, to_base, fsm::kUsualMouthY);
     std::vector<bool> is_eye;
     for (const fsm::Bone bone : model.mesh.bone) {
       is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
     const ObservedHead::Skin skin{model.SkinTriangles(), model.has_uv_seams};
     const auto other =
-        ObservedHead::Observe(networks_, fsm::MakeMeshHead(std::move(model)), name_, skin);
+        ObservedHead::Observe(networks_, fsm::RigUnriggedHead(std::move(model)), name_, skin);
     if (!other) return {};
     PerPoint<MeshPoint> on_base = base_.mesh_points(), on_other = other->mesh_points();
     const LidEdgesOfEyes lid_edges = FindLidEdgesOfEyes(*other, is_eye);

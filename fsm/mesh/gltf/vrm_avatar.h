@@ -6,7 +6,7 @@
 
 #include "fsm/mesh/gltf/gltf_document.h"
 #include "fsm/mesh/gltf/gltf_nodes.h"
-#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/unrigged_head.h"
 
 namespace fsm {
 

@@ -7,7 +7,7 @@
 
 namespace fsm {
 
-LipRig LipsOf(const MeshModel& model, std::size_t count) {
+LipRig LipsOf(const UnriggedHead& model, std::size_t count) {
   LipRig rig;
   const auto& seam = model.mouth.seam;
   if (seam.empty()) return rig;

@@ -38,9 +38,9 @@ std::string PathOf(const std::string& folder, const std::string& stem, int numbe
   return folder + "/_AU_Datas/" + stem + (number < 10 ? "0" : "") + std::to_string(number) + ".pnt";
 }
 
-class Reader {
+class ExpressionReader {
  public:
-  Reader(const std::string& folder, const std::string& path, PntFile standard)
+  ExpressionReader(const std::string& folder, const std::string& path, PntFile standard)
       : folder_(folder), path_(path), standard_(std::move(standard)), space_(standard_) {}
 
   /// Throws vm::Failure for a file that cannot be read.
@@ -147,7 +147,7 @@ vm::Result<OriginalExpressions> ReadOriginalExpressions(const std::string& folde
                                                         const std::string& standard) try {
   PntFile wireframe = vm::OrThrow(ReadPnt(standard));
   vm::OrThrow(CheckPoints(standard, wireframe));
-  return Reader(folder, standard, std::move(wireframe)).Read();
+  return ExpressionReader(folder, standard, std::move(wireframe)).Read();
 } catch (const vm::Failure& failure) {
   return std::unexpected(failure.error);
 }

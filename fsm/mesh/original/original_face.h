@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "fsm/image/image.h"
-#include "fsm/mesh/mesh_model.h"
 #include "fsm/mesh/obj/obj_file.h"
 #include "fsm/mesh/original/original_files.h"
 #include "fsm/mesh/original/pnt_file.h"
+#include "fsm/mesh/unrigged_head.h"
 #include "fsm/rig/face_state.h"
 
 namespace fsm {

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 
-#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/original/lip_seal.h"
 #include "fsm/mesh/original/original_expressions.h"
 #include "fsm/mesh/original/original_points.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/transfer/drive_fit.h"
 #include "fsm/mesh/transfer/nnls_solver.h"
 #include "fsm/rig/unit_table.h"
@@ -21,7 +21,7 @@ constexpr float kVisemeShare = 0.4f;
 
 class OriginalRigBaker {
  public:
-  OriginalRigBaker(const OriginalFace& face, const MeshModel& model)
+  OriginalRigBaker(const OriginalFace& face, const UnriggedHead& model)
       : face_(face), model_(model), own_(face.wireframe) {
     // Units belong to the standard wireframe and are scaled with the face, so that its lids meet:
     // in x with the distance of the eyes, in y with the height from eyes to mouth. Offsets of
@@ -132,7 +132,7 @@ class OriginalRigBaker {
   }
 
   const OriginalFace& face_;
-  const MeshModel& model_;
+  const UnriggedHead& model_;
   OriginalSpace own_;
   glm::vec3 unit_scale_{1};
   RigData rig_;
@@ -140,8 +140,8 @@ class OriginalRigBaker {
 
 }  // namespace
 
-RigData RigOfOriginal(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
-                      const MouthUnitSizes& unit_sizes) {
+RigData RigOfOriginal(const OriginalFace& face, const UnriggedHead& model,
+                      const VisemeMouths& mouths, const MouthUnitSizes& unit_sizes) {
   return OriginalRigBaker(face, model).Bake(mouths, unit_sizes);
 }
 

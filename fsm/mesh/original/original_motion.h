@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "fsm/mesh/mesh_model.h"
 #include "fsm/mesh/original/original_face.h"
+#include "fsm/mesh/unrigged_head.h"
 
 namespace fsm {
 
@@ -18,7 +18,7 @@ using MouthUnitSizes = std::array<float, kMouthParameters>;
 /// Makes the rig of a face from its own shapes. Action units are driven by FaceState::au, visemes
 /// by FaceState::mouth, and mouth unit N by parameter N of FaceState::mouth_by_hand (slot Mouth.N),
 /// whatever that unit shows (in the data of the original, mostly vowels).
-RigData RigOfOriginal(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
-                      const MouthUnitSizes& unit_sizes = {});
+RigData RigOfOriginal(const OriginalFace& face, const UnriggedHead& model,
+                      const VisemeMouths& mouths, const MouthUnitSizes& unit_sizes = {});
 
 }  // namespace fsm

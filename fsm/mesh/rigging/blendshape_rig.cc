@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/shape_solver.h"
 #include "fsm/mesh/transfer/drive_fit.h"
 
@@ -10,7 +10,7 @@ namespace fsm {
 namespace {
 
 /// Detaches teeth and tongue from the jaw if shapes move them.
-void DetachFromBones(const ImportedHead& file, const KnownShapes& known, MeshModel& model) {
+void DetachFromBones(const ImportedHead& file, const KnownShapes& known, UnriggedHead& model) {
   std::vector<bool> moves(model.mesh.position.size(), false);
   for (const KnownShapes::Moves& shape : known.moves) {
     for (const Displacement& d : shape) moves[d.vertex] = true;
@@ -136,7 +136,7 @@ void AddShapes(const KnownShapes& known, const ShapeSolver& solver,
 }  // namespace
 
 std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
-                                         MeshModel& model, const ShapeMeanings& meanings,
+                                         UnriggedHead& model, const ShapeMeanings& meanings,
                                          const Head& driven, std::span<const FaceState> visemes,
                                          std::vector<std::string>* unused) {
   constexpr std::size_t kFewest = 4;

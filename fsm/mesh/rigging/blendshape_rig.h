@@ -23,7 +23,7 @@ struct ShapeMeanings {
 /// included, become flesh. Returns nothing if fewer than four shapes have a meaning. `unused`
 /// receives the names of shapes that move vertices but have no meaning.
 std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
-                                         MeshModel& model, const ShapeMeanings& meanings,
+                                         UnriggedHead& model, const ShapeMeanings& meanings,
                                          const Head& driven,
                                          std::span<const FaceState> visemes = {},
                                          std::vector<std::string>* unused = nullptr);

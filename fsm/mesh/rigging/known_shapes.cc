@@ -56,7 +56,7 @@ std::size_t KnownShapes::IndexOf(std::string_view name) const {
 }
 
 KnownShapes RecogniseShapes(const ImportedHead& file, const Similarity& to_ours,
-                            const MeshModel& model, std::span<const ShapeMeaning> meanings) {
+                            const UnriggedHead& model, std::span<const ShapeMeaning> meanings) {
   const MeaningFinder finder(file, meanings);
   KnownShapes known;
   for (const auto& shape : file.shapes) {

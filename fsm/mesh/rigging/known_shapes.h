@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/unrigged_head.h"
 
 namespace fsm {
 
@@ -36,6 +36,6 @@ inline constexpr const char* kGazeShapes[] = {"vrmlookleft", "vrmlookright", "vr
 
 /// Finds the meanings of a file's shapes by their normalised names.
 KnownShapes RecogniseShapes(const ImportedHead& file, const Similarity& to_ours,
-                            const MeshModel& model, std::span<const ShapeMeaning> meanings);
+                            const UnriggedHead& model, std::span<const ShapeMeaning> meanings);
 
 }  // namespace fsm

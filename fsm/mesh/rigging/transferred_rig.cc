@@ -165,7 +165,7 @@ class RigResampler {
 
 /// Adds the source's lips to the model as vertices that are not drawn, by which crossing lips are
 /// detected. Returns the rows of all vertices.
-std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshModel& model) {
+std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, UnriggedHead& model) {
   std::vector<Row> all(rows.begin(), rows.end());
   std::map<std::uint32_t, std::uint32_t> known;
   const auto own = [&](std::uint32_t v) {
@@ -189,7 +189,7 @@ std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshM
 
 /// Colours the lips, and their inside, of a head without pictures: as red relative to its skin as
 /// those of the source.
-void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
+void RedLips(const Head& source, std::span<const Row> rows, UnriggedHead& model) {
   if (model.textures.base_colour) return;
   const HeadSurface& surface = source.surface();
   std::vector<bool> lip(surface.albedo.size(), false);
@@ -210,7 +210,7 @@ void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
 }
 
 /// Returns the offset of each vertex from its position by the rig at rest to that in the file.
-std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
+std::vector<glm::vec3> OwnForm(const RigData& rig, const UnriggedHead& model,
                                std::span<const Row> rows) {
   RigData proxy = rig;
   proxy.rest = rig.proxy.rest;
@@ -228,7 +228,7 @@ std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
 }
 
 /// Moves the undrawn lips to the head's lips; the vertices of a pair stay together.
-void MoveLips(const MeshModel& model, std::span<const PointPair> pairs,
+void MoveLips(const UnriggedHead& model, std::span<const PointPair> pairs,
               std::vector<glm::vec3>& form) {
   const auto off = [&](glm::vec3 at) {
     constexpr float kNear = 3;  // millimetres
@@ -252,7 +252,7 @@ void MoveLips(const MeshModel& model, std::span<const PointPair> pairs,
     form[corner] = off(model.mesh.position[corner]);
 }
 
-DeformationTransfer TransferBetween(const Head& source, const MeshModel& model,
+DeformationTransfer TransferBetween(const Head& source, const UnriggedHead& model,
                                     std::span<const PointPair> pairs) {
   HeadVertices rest;
   source.Evaluate({}, rest);
@@ -277,7 +277,7 @@ std::vector<std::uint32_t> EyeballTriangles(const HeadSurface& surface) {
   return TrianglesOf(surface, {Material::kSclera, Material::kIris, Material::kPupil});
 }
 
-RigData TransferRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs) {
+RigData TransferRig(UnriggedHead& model, const Head& source, std::span<const PointPair> pairs) {
   using enum RigStep;
   const RigData& from = source.rig().data();
   const DeformationTransfer transfer = TransferBetween(source, model, pairs);

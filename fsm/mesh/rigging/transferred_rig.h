@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "fsm/mesh/mesh_model.h"
 #include "fsm/mesh/transfer/deformation_transfer.h"
+#include "fsm/mesh/unrigged_head.h"
 
 namespace fsm {
 
@@ -17,6 +17,6 @@ std::vector<std::uint32_t> EyeballTriangles(const HeadSurface& surface);
 /// Makes a rig whose skin moves like that of `source`, a built-in head; `pairs` are in our frame.
 /// Adds the lips of the source to `model` as vertices that are not drawn. Throws as
 /// DeformationTransfer, with the model's name before the text.
-RigData TransferRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs);
+RigData TransferRig(UnriggedHead& model, const Head& source, std::span<const PointPair> pairs);
 
 }  // namespace fsm

@@ -10,7 +10,7 @@
 
 #include "face_fit/image/filters.h"
 #include "fsm/head/make_head.h"
-#include "fsm/head/photo_wear.h"
+#include "fsm/head/photo_surface.h"
 
 namespace facefit {
 namespace {

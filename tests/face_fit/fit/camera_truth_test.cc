@@ -21,10 +21,10 @@
 #include "face_fit/surface/mesh_point.h"
 #include "face_fit/surface/rasterizer.h"
 #include "fsm/head/make_head.h"
+#include "fsm/mesh/align_imported_head.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/imported_model.h"
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/transferred_rig.h"
 #include "tests/face_fit/grey_image.h"
 #include "tests/face_fit/network_fixture.h"
@@ -281,10 +281,10 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     if (!file) throw std::runtime_error(file.error().text);
     const auto found = vm::OrThrow(FindHeadPoints(*networks_, *file, name, "galatea"));
     const fsm::Similarity place = fsm::FitSimilarity(found.pairs);
-    fsm::MeshModel model = fsm::ModelOfImport(*file, place, -43);
-    const ObservedHead other =
-        vm::OrThrow(ObservedHead::Observe(*networks_, fsm::MakeMeshHead(fsm::MeshModel(model)),
-                                          name, {model.SkinTriangles(), model.has_uv_seams}));
+    fsm::UnriggedHead model = fsm::AlignImportedHead(*file, place, -43);
+    const ObservedHead other = vm::OrThrow(
+        ObservedHead::Observe(*networks_, fsm::RigUnriggedHead(fsm::UnriggedHead(model)), name,
+                              {model.SkinTriangles(), model.has_uv_seams}));
     TrueHead made;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       // At the outline the network may miss the cheek and see an ear or the neck, centimetres
@@ -297,7 +297,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
               : other.rest().position[Nearest(other.head(), other.rest(), usual)]);
     }
     for (const std::size_t side : {0U, 1U}) made.ears[side] = place(kEars.at(name)[side]);
-    made.head = fsm::MakeMeshHead(std::move(model));
+    made.head = fsm::RigUnriggedHead(std::move(model));
     made.rest = other.rest();
     return made;
   }

@@ -19,9 +19,9 @@
 #include <tuple>
 
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/imported_model.h"
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/align_imported_head.h"
 #include "fsm/mesh/obj/obj_file.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/transferred_rig.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
@@ -31,7 +31,7 @@ namespace {
 
 /// A head by its points in our frame, with its own shapes as offsets of its vertices.
 struct Subject {
-  fsm::MeshModel model;
+  fsm::UnriggedHead model;
   std::vector<std::uint32_t> flesh, eyes;
   std::vector<fsm::PointPair> pairs;  // from: galatea
   std::map<std::string, std::vector<glm::vec3>> shapes;
@@ -65,7 +65,7 @@ class HeadFinderTest : public NetworkTest {
     Subject subject;
     subject.pairs = points.pairs;
     for (auto& pair : subject.pairs) pair.to = place(pair.to);
-    subject.model = fsm::ModelOfImport(*file, place, -43);
+    subject.model = fsm::AlignImportedHead(*file, place, -43);
     subject.flesh = subject.model.SkinTriangles();
     subject.eyes = subject.model.EyeTriangles();
     // The shapes number the file's own lines; the reader keeps what its faces use, by place.
@@ -175,9 +175,9 @@ TEST_F(HeadFinderTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
       }
       return y / count;
     };
-    fsm::MeshModel model = subject.model;
+    fsm::UnriggedHead model = subject.model;
     fsm::RigData skin = fsm::TransferRig(model, *fsm::MakeHead("galatea", false), pairs);
-    const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
+    const auto head = fsm::RigUnriggedHead(std::move(model), std::move(skin));
     fsm::HeadVertices moved;
     fsm::FaceState state;
     state.au.left[27] = state.au.right[27] = 1;

@@ -1,4 +1,4 @@
-#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/rig_unrigged_head.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace fsm {
 namespace {
 
-HeadSurface SurfaceOf(const MeshModel& model) {
+HeadSurface SurfaceOf(const UnriggedHead& model) {
   HeadSurface surface;
   SetParts(model.mesh.batches, surface);
   if (surface.indices.empty()) throw std::runtime_error("the head has no triangles");
@@ -32,7 +32,7 @@ HeadSurface SurfaceOf(const MeshModel& model) {
 }
 
 /// Returns the skin near the eyeballs that is outside them at rest, and must remain so.
-std::vector<BallLid> LidsOf(const MeshModel& model) {
+std::vector<BallLid> LidsOf(const UnriggedHead& model) {
   constexpr float kReach = 8, kThickness = 0.6f;
   std::vector<BallLid> lids;
   for (std::uint32_t i = 0; i < model.mesh.position.size(); ++i) {
@@ -81,7 +81,7 @@ std::vector<std::uint32_t> NormalTwins(const std::vector<glm::vec3>& position,
   return twin;
 }
 
-RigData RigOf(const MeshModel& model, const HeadSurface& surface, RigData rig) {
+RigData RigOf(const UnriggedHead& model, const HeadSurface& surface, RigData rig) {
   using enum RigStep;
   for (const RigStep step : {kLidsOnBalls, kBones, kNeck, kSprings, kNormals})
     rig.steps.push_back(step);
@@ -136,7 +136,7 @@ RigData MakeStillSkin() {
   return rig;
 }
 
-std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin) {
+std::unique_ptr<Head> RigUnriggedHead(UnriggedHead model, RigData skin) {
   HeadAsset asset{.surface = SurfaceOf(model), .rig = {}, .landmarks = {}, .view = model.view};
   asset.rig = RigOf(model, asset.surface, std::move(skin));
   if (!model.textures.base_colour) LightMouth(asset.rig, asset.surface);

@@ -29,7 +29,7 @@ struct BakeWeights {
 };
 
 /// A mesh under construction: vertices with paint and rig, triangles by material.
-struct HeadMesh {
+struct MeshBuilder {
   std::vector<glm::vec3> position;
   std::vector<glm::vec3> albedo;
   std::vector<float> openness;
@@ -59,7 +59,7 @@ struct HeadMesh {
 };
 
 /// Fills the triangles and parts of a surface that has none.
-void SetParts(std::span<const HeadMesh::Batch> batches, HeadSurface& surface);
+void SetParts(std::span<const MeshBuilder::Batch> batches, HeadSurface& surface);
 
 /// Returns how far the neck turns with the head at a height: fully at the jaw, not at the
 /// shoulders.

@@ -1,4 +1,4 @@
-#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/unrigged_head.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace fsm {
 
-std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at,
-                             float neck) {
+std::uint32_t UnriggedHead::Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at,
+                                float neck) {
   textures.texcoord.push_back(at.value_or(glm::vec2(0)));
   textures.weight.push_back(at ? 1.0f : 0.0f);
   return mesh.Add(p, colour, 1, b, {.skin = {.neck = neck}});
@@ -19,7 +19,7 @@ namespace {
 
 /// Returns the triangles whose corners all belong to bones that `is` accepts.
 template <typename Is>
-std::vector<std::uint32_t> TrianglesOf(const MeshModel& model, Is is) {
+std::vector<std::uint32_t> TrianglesOf(const UnriggedHead& model, Is is) {
   std::vector<std::uint32_t> out;
   for (const auto& batch : model.mesh.batches) {
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
@@ -34,15 +34,15 @@ std::vector<std::uint32_t> TrianglesOf(const MeshModel& model, Is is) {
 
 }  // namespace
 
-std::vector<std::uint32_t> MeshModel::SkinTriangles() const {
+std::vector<std::uint32_t> UnriggedHead::SkinTriangles() const {
   return TrianglesOf(*this, [](Bone b) { return b == Bone::kSkin; });
 }
 
-std::vector<std::uint32_t> MeshModel::EyeTriangles() const {
+std::vector<std::uint32_t> UnriggedHead::EyeTriangles() const {
   return TrianglesOf(*this, [](Bone b) { return SideOfEye(b).has_value(); });
 }
 
-void MeshModel::AddEyeball(Side side) {
+void UnriggedHead::AddEyeball(Side side) {
   // Rings about the line of sight; one is the edge of the iris.
   constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
   const EyeGeometry& eye = eyes[side];

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/unrigged_head.h"
 
 namespace fsm {
 
@@ -11,6 +11,6 @@ inline constexpr float kUsualMouthY = -43;
 /// ones belong to the jaw follows from their position relative to the mouth, which is at `mouth_y`.
 /// Throws std::runtime_error naming file and vertex if `to_ours` moves one beyond kMaxReach,
 /// which happens if the landmarks do not belong to the head.
-MeshModel ModelOfImport(const ImportedHead& file, const Similarity& to_ours, float mouth_y);
+UnriggedHead AlignImportedHead(const ImportedHead& file, const Similarity& to_ours, float mouth_y);
 
 }  // namespace fsm

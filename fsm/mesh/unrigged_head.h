@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/landmarks.h"
+#include "fsm/head/mesh_builder.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
 
-/// A head that is not built in, at rest, in the frame of HeadVertices, millimetres. MakeMeshHead
+/// A head that is not built in, at rest, in the frame of HeadVertices, millimetres. RigUnriggedHead
 /// converts it to a Head, in which vertices of Bone::kSkin are moved by the given rig and the
 /// others by their bones.
-struct MeshModel {
+struct UnriggedHead {
   std::string name;  ///< the file name in messages; may be empty
-  HeadMesh mesh;     ///< of its weights only SkinWeights::neck is used
+  MeshBuilder mesh;  ///< of its weights only SkinWeights::neck is used
   TextureMaps textures;
   std::vector<PbrMaterial> pbr_materials;
   Sided<EyeGeometry> eyes;  ///< meaningful where has_eyes, as eye_rig
@@ -29,7 +29,7 @@ struct MeshModel {
   SpringRig spring_rig;
   Landmarks landmarks;
   std::optional<ParallelView> view;  ///< the view that the file intends
-  MouthLandmarks mouth;              ///< without incisors, which MakeMeshHead finds
+  MouthLandmarks mouth;              ///< without incisors, which RigUnriggedHead finds
 
   /// Adds a vertex and returns its index. `at`: its texture coordinates; if missing, it has its own
   /// colour. `neck`: SkinWeights::neck.

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/unrigged_head.h"
 
 namespace fsm {
 
@@ -11,6 +11,6 @@ RigData MakeStillSkin();
 /// Makes a head from `model`. `skin` has the steps that shape its skin (ShapesSkin) and their data,
 /// indexed by the model's vertices. Adds the steps of eyes, jaw, neck, springs and normals, and the
 /// ambient occlusion of each vertex. Throws std::runtime_error if the model has no triangles.
-std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin = MakeStillSkin());
+std::unique_ptr<Head> RigUnriggedHead(UnriggedHead model, RigData skin = MakeStillSkin());
 
 }  // namespace fsm

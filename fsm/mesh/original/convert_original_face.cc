@@ -1,4 +1,4 @@
-#include "fsm/mesh/original/original_model.h"
+#include "fsm/mesh/original/convert_original_face.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ class OriginalBuilder {
  public:
   explicit OriginalBuilder(const OriginalFace& face) : face_(face), space_(face.wireframe) {}
 
-  MeshModel Build() {
+  UnriggedHead Build() {
     const std::size_t picture = atlas_.Add(face_.picture);
     std::size_t eye_picture = 0;
     if (face_.eye_picture) eye_picture = atlas_.Add(*face_.eye_picture);
@@ -228,11 +228,11 @@ class OriginalBuilder {
   const OriginalFace& face_;
   OriginalSpace space_;
   TextureAtlas atlas_;
-  MeshModel model_;
+  UnriggedHead model_;
 };
 
 }  // namespace
 
-MeshModel ModelOfOriginal(const OriginalFace& face) { return OriginalBuilder(face).Build(); }
+UnriggedHead ConvertOriginalFace(const OriginalFace& face) { return OriginalBuilder(face).Build(); }
 
 }  // namespace fsm

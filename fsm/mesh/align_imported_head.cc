@@ -1,4 +1,4 @@
-#include "fsm/mesh/imported_model.h"
+#include "fsm/mesh/align_imported_head.h"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 #include <string>
 
 #include "fsm/base/box.h"
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/mesh_builder.h"
 #include "fsm/mesh/part_names.h"
 #include "fsm/mesh/texture_atlas.h"
 #include "fsm/rig/reach.h"
@@ -77,7 +77,7 @@ using EyeOfVertex = std::vector<std::optional<Side>>;
 /// Finds the eyes of the model: parts with such names, or vertices that the file's skeleton assigns
 /// to eyes. `at`: the vertices in our frame.
 EyeOfVertex FindEyes(const ImportedHead& file, std::span<const glm::vec3> at,
-                     const Similarity& to_ours, MeshModel& model) {
+                     const Similarity& to_ours, UnriggedHead& model) {
   Sided<Box> box;
   EyeOfVertex eye_of(at.size());
   for (const auto& part : file.parts) {
@@ -147,7 +147,7 @@ class HeadBuilder {
     }
   }
 
-  MeshModel Build() {
+  UnriggedHead Build() {
     for (const Image& picture : file_.base_colours) atlas_.Add(picture);
     model_.textures.base_colour = atlas_.Make();
     if (model_.textures.base_colour) LayDetails();
@@ -263,13 +263,13 @@ class HeadBuilder {
   EyeOfVertex eye_of_;
   TextureAtlas atlas_;
   std::map<int, int> pbr_index_;  // file's index -> model's index of a material
-  MeshModel model_;
+  UnriggedHead model_;
   bool eyeballs_added_ = false;
 };
 
 }  // namespace
 
-MeshModel ModelOfImport(const ImportedHead& file, const Similarity& to_ours, float mouth_y) {
+UnriggedHead AlignImportedHead(const ImportedHead& file, const Similarity& to_ours, float mouth_y) {
   return HeadBuilder(file, to_ours, mouth_y).Build();
 }
 

@@ -1,4 +1,4 @@
-#include "fsm/head/head_mesh.h"
+#include "fsm/head/mesh_builder.h"
 
 #include <algorithm>
 
@@ -6,8 +6,8 @@
 
 namespace fsm {
 
-std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
-                            const BakeWeights& vertex_weights) {
+std::uint32_t MeshBuilder::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
+                               const BakeWeights& vertex_weights) {
   position.push_back(p);
   albedo.push_back(colour);
   openness.push_back(open);
@@ -18,14 +18,14 @@ std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
   return static_cast<std::uint32_t>(position.size() - 1);
 }
 
-void HeadMesh::Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                        bool flip) {
+void MeshBuilder::Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                           bool flip) {
   if (a == b || b == c || c == a) return;
   auto& indices = BatchOf(material).indices;
   indices.insert(indices.end(), {a, flip ? c : b, flip ? b : c});
 }
 
-HeadMesh::Batch& HeadMesh::BatchOf(Material material, int pbr, bool two_sided) {
+MeshBuilder::Batch& MeshBuilder::BatchOf(Material material, int pbr, bool two_sided) {
   const auto found = std::ranges::find_if(batches, [&](const Batch& batch) {
     return batch.material == material && batch.pbr == pbr && batch.two_sided == two_sided;
   });
@@ -33,13 +33,13 @@ HeadMesh::Batch& HeadMesh::BatchOf(Material material, int pbr, bool two_sided) {
   return batches.emplace_back(Batch{material, {}, pbr, two_sided});
 }
 
-void HeadMesh::Quad(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                    std::uint32_t d) {
+void MeshBuilder::Quad(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                       std::uint32_t d) {
   Triangle(material, a, b, c);
   Triangle(material, a, c, d);
 }
 
-void HeadMesh::Grid(Material material, std::uint32_t first, int rows, int columns, bool flip) {
+void MeshBuilder::Grid(Material material, std::uint32_t first, int rows, int columns, bool flip) {
   const auto at = [&](int r, int c) { return first + static_cast<std::uint32_t>(r * columns + c); };
   for (int r = 0; r + 1 < rows; ++r) {
     for (int c = 0; c + 1 < columns; ++c) {
@@ -52,8 +52,8 @@ void HeadMesh::Grid(Material material, std::uint32_t first, int rows, int column
   }
 }
 
-void SetParts(std::span<const HeadMesh::Batch> batches, HeadSurface& surface) {
-  for (const HeadMesh::Batch& batch : batches) {
+void SetParts(std::span<const MeshBuilder::Batch> batches, HeadSurface& surface) {
+  for (const MeshBuilder::Batch& batch : batches) {
     surface.parts.push_back({batch.material, static_cast<std::uint32_t>(surface.indices.size()),
                              static_cast<std::uint32_t>(batch.indices.size()), batch.pbr,
                              batch.two_sided});

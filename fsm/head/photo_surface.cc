@@ -1,4 +1,4 @@
-#include "fsm/head/photo_wear.h"
+#include "fsm/head/photo_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ glm::vec3 Wetter(const PhotoHead& head, glm::vec3 lip, float share) {
   return lip * glm::mix(glm::vec3(1), head.features->photo.mouth.wet_skin, share * head.saturation);
 }
 
-void NostrilsToSkin(std::span<const CageTag> tags, HeadMesh& mesh) {
+void NostrilsToSkin(std::span<const CageTag> tags, MeshBuilder& mesh) {
   std::vector<std::uint32_t> nostrils;
   for (auto& batch : mesh.batches) {
     if (batch.material != Material::kMouthInside) continue;
@@ -157,7 +157,7 @@ void CopyColours(const PhotoHead& head, Palette& palette) {
 
 float NeckFrontZ(float above_bottom_mm) { return 30 * SmoothStep(48, 36, above_bottom_mm); }
 
-void AddPhotoSheet(const PhotoHead& head, HeadMesh& mesh) {
+void AddPhotoSheet(const PhotoHead& head, MeshBuilder& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (const auto& vertex : head.sheet) {
     BakeWeights weights{.follows = BakeWeights::Follows::kNothing};  // it is in its final place
@@ -176,7 +176,7 @@ void AddPhotoSheet(const PhotoHead& head, HeadMesh& mesh) {
 }
 
 void HoldBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin_count,
-                       HeadMesh& mesh) {
+                       MeshBuilder& mesh) {
   const auto& lens = features.photo.lens;
   for (std::size_t i = 0; i < skin_count; ++i) {
     BakeWeights& weights = mesh.weights[i];
@@ -187,7 +187,7 @@ void HoldBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin
   }
 }
 
-void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMesh& mesh) {
+void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, MeshBuilder& mesh) {
   NostrilsToSkin(tags, mesh);
   for (auto& batch : mesh.batches) {
     if (batch.material != Material::kSkin) continue;
@@ -206,8 +206,8 @@ void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMe
   }
 }
 
-void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
-               HeadSurface& surface) {
+void ApplyPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
+                HeadSurface& surface) {
   const std::size_t skin_count = skin.weights.size();
   surface.textures.base_colour = head.atlas;
   surface.portrait.saturation = head.saturation;

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "fsm/head/cage.h"
-#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/mesh_builder.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/head/photo_lids.h"
 #include "fsm/rig/head.h"
@@ -17,12 +17,12 @@ namespace fsm {
 void CopyColours(const PhotoHead& head, Palette& palette);
 
 /// Adds the sheet with hair, neck and clothes of a photo. It turns with the head as skin does.
-void AddPhotoSheet(const PhotoHead& head, HeadMesh& mesh);
+void AddPhotoSheet(const PhotoHead& head, MeshBuilder& mesh);
 
 /// Keeps the skin still where glasses rest, which the photo shows on the skin, or they would bend.
 /// `eye`: centre of the left eye at rest, (x, y) of the base identity.
 void HoldBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin_count,
-                       HeadMesh& mesh);
+                       MeshBuilder& mesh);
 
 /// Returns how far forward (z, millimetres) the neck reaches at a height above
 /// PhotoHead::skin_bottom_y. Skin behind this line may face the camera but is not the face's. The
@@ -31,13 +31,14 @@ void HoldBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin
 float NeckFrontZ(float above_bottom_mm);
 
 /// Removes skin that the photo does not show, behind the outline and below the jaw, where the sheet
-/// is, and fades the skin beside it (HeadMesh::opacity). The nostrils' lining becomes skin, since
-/// the photo shows how dark they are. `tags`: those of the skin's vertices, the first of the mesh.
-void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMesh& mesh);
+/// is, and fades the skin beside it (MeshBuilder::opacity). The nostrils' lining becomes skin,
+/// since the photo shows how dark they are. `tags`: those of the skin's vertices, the first of the
+/// mesh.
+void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, MeshBuilder& mesh);
 
 /// Gives every vertex of skin and sheet its texture coordinate in the photo, and lids and lips
 /// their own paint. `lip_inside`: colour of lips that roll inward if `head` has none.
-void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
-               HeadSurface& surface);
+void ApplyPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
+                HeadSurface& surface);
 
 }  // namespace fsm
