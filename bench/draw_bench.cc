@@ -261,7 +261,7 @@ void MeasureAll(char** argv, const Options& options) {
   std::printf("%s\n", fsm::DescribeOffScreen(options.context).c_str());
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height, options.context);
   auto renderer = fsm::Renderer::Make(*context, 8, fsm::Appearance::BuiltIn(), options.rig);
-  renderer->SetFormError(FormError(options));
+  renderer->SetMaxErrorPixels(FormError(options));
   const auto head = fsm::MakeHead("galatea");
   fsm::HeadVertices vertices;
   fsm::Image image;
@@ -306,7 +306,7 @@ void DrawFirstFrame(const Options& options) {
   auto made = std::async(std::launch::async, [] { return fsm::MakeHead("galatea"); });
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
   auto renderer = fsm::Renderer::Make(*context);
-  renderer->SetFormError(FormError(options));
+  renderer->SetMaxErrorPixels(FormError(options));
   const auto head = made.get();
   fsm::HeadVertices vertices;
   fsm::Image image;

@@ -195,7 +195,7 @@ class ObjHeadMaker {
       topology_.indices.insert(topology_.indices.end(), indices.begin(), indices.end());
     }
     topology_.openness.assign(rest_.position.size(), 1);
-    for (const glm::vec3& p : rest_.position) topology_.uv.push_back(Unroll(p));
+    for (const glm::vec3& p : rest_.position) topology_.uv.push_back(SkinUv(p));
     rest_.normal.assign(rest_.position.size(), glm::vec3(0));
     for (std::size_t i = 0; i < topology_.indices.size(); i += 3) {
       const std::uint32_t* c = &topology_.indices[i];

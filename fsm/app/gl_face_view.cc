@@ -2,7 +2,7 @@
 
 #include <future>
 
-#include "fsm/base/caught.h"
+#include "fsm/base/catch_errors.h"
 #include "fsm/faces/table_names.h"
 #include "vm_protocol/core/or_throw.h"
 
@@ -43,7 +43,7 @@ void GlFaceView::MakeRenderer() {
   if (!renderer_) {
     const Appearance& appearance = appearance_ ? *appearance_ : Appearance::BuiltIn();
     renderer_ = Renderer::Make(*context_, 1, appearance, options_.rig);
-    renderer_->SetFormError(appearance.form_error);
+    renderer_->SetMaxErrorPixels(appearance.form_error);
   }
 }
 
@@ -64,7 +64,7 @@ std::span<const glm::vec3> GlFaceView::SpringOffsets(const Head& head,
 
 vm::Result<void> GlFaceView::Draw(const FaceState& state, const Scene& scene,
                                   const StateHistory* history) {
-  return Caught("cannot draw: ", [&] {
+  return CatchErrors("cannot draw: ", [&] {
     // Make the head while the graphics driver starts, since both take long.
     std::future<void> made;
     if (!renderer_) {
@@ -88,7 +88,7 @@ std::uint64_t GlFaceView::BeginRead() {
 }
 
 vm::Result<void> GlFaceView::EndRead(std::uint64_t frame, Image& out) {
-  return Caught("", [&] {
+  return CatchErrors("", [&] {
     context_->MakeCurrent();
     renderer_->EndRead(frame, out);
   });

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fsm/base/caught.h"
+#include "fsm/base/catch_errors.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/head/identity.h"
@@ -41,14 +41,14 @@ vm::Result<void> HeadLibrary::Select(const std::string& face) {
     return vm::Fail(vm::Errc::kBadValue, "there is no face '" + face + "'; " + list + " expected");
   }
   if (face == (current_.empty() ? names.front() : current_)) return {};
-  return Caught("", [&] {
+  return CatchErrors("", [&] {
     head_ = Make(face);
     current_ = face;
   });
 }
 
 vm::Result<MouthMeasure> HeadLibrary::Measure(const FaceState& state) {
-  return Caught("cannot measure: ", [&] { return head().MeasureMouth(state); });
+  return CatchErrors("cannot measure: ", [&] { return head().MeasureMouth(state); });
 }
 
 }  // namespace fsm

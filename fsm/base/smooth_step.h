@@ -15,6 +15,9 @@ T SmoothStep(std::type_identity_t<T> from, std::type_identity_t<T> to, T x) {
 }
 inline double SmoothStep(double u) { return SmoothStep(0, 1, u); }
 
+/// Returns the Gaussian weight at a distance of `squared` squared standard deviations.
+inline float Gaussian(float squared) { return std::exp(-0.5F * squared); }
+
 /// About exp(-(x / width)^2), cut to 0 from two widths on. A width of 0 or less gives 0.
 inline float Bell(float x, float width) {
   if (!(std::abs(x) < 2 * width)) return 0;

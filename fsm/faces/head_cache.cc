@@ -12,7 +12,7 @@
 
 #include "fsm/asset/asset_reader.h"
 #include "fsm/asset/asset_writer.h"
-#include "fsm/base/caught.h"
+#include "fsm/base/catch_errors.h"
 #include "fsm/base/random.h"
 #include "fsm/faces/head_of_file.h"
 #include "vm_protocol/core/or_throw.h"
@@ -112,7 +112,7 @@ std::unique_ptr<Head> HeadCache::Find(const std::string& entry, const std::strin
 
 void HeadCache::Keep(const std::string& entry, const std::string& made_from,
                      const Head& head) const {
-  const auto kept = Caught("the head is not kept: ", [&] {
+  const auto kept = CatchErrors("the head is not kept: ", [&] {
     fs::create_directories(folder_);
     DropOldest();
     vm::OrThrow(vm::WriteTextFile(entry + ".glb", WriteAsset(head, {})));

@@ -100,11 +100,11 @@ vm::Result<void> FfmpegProcess::Finish() {
 }
 
 bool FfmpegProcess::Wait(bool for_writing, Deadline deadline) {
-  constexpr std::chrono::milliseconds kPollInterval{100};  // how often abandoned_ is checked
+  constexpr std::chrono::milliseconds kPollInterval{100};  // how often cancelled_ is checked
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         deadline - std::chrono::steady_clock::now());
-    if (left.count() <= 0 || abandoned_) return false;
+    if (left.count() <= 0 || cancelled_) return false;
     pollfd wanted[2] = {{errors_, POLLIN, 0}, {for_writing ? input_ : -1, POLLOUT, 0}};
     // poll ignores negative descriptors, so closed ones need no special case.
     if (poll(wanted, 2, static_cast<int>(std::min(left, kPollInterval).count())) == 0) continue;

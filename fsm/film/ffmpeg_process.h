@@ -36,7 +36,7 @@ class FfmpegProcess {
   /// stalls; it is then killed.
   vm::Result<void> Write(std::span<const std::uint8_t> bytes);
   /// Makes a Write in another thread fail soon. Thread: any.
-  void Abandon() { abandoned_ = true; }
+  void CancelWrites() { cancelled_ = true; }
   /// Closes its input and waits for its exit. Error: kUnavailable if it reports failure.
   vm::Result<void> Finish();
 
@@ -52,7 +52,7 @@ class FfmpegProcess {
   /// The wait status, or -1 if somebody else reaped it.
   int Reap();
 
-  std::atomic<bool> abandoned_ = false;
+  std::atomic<bool> cancelled_ = false;
   pid_t pid_;              // 0 once reaped
   int input_;              // our end of a socket, -1 once closed
   int errors_;             // our end of a pipe, -1 at its end

@@ -11,7 +11,7 @@ FrameFeeder::~FrameFeeder() {
     waiting_.clear();
     closed_ = true;
   }
-  ffmpeg_.Abandon();
+  ffmpeg_.CancelWrites();
   changed_.notify_all();
   thread_.join();
 }

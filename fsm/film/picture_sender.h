@@ -21,7 +21,7 @@ namespace fsm {
 /// separate thread, so that the caller never waits for the receiver. The format is in docs/face.md,
 /// Pictures for other programs.
 /// Ownership: owns its end of the socket. Thread: one caller.
-/// Limits: one picture is being sent and one waits; a receiver that reads nothing for `stall` is
+/// Limits: one picture is being sent and one waits; a receiver that reads nothing for kStall is
 /// disconnected.
 class PictureSender {
  public:

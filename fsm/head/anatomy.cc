@@ -80,7 +80,7 @@ float EyeAnatomy::MeetAngle(float x) const {
   return AngleOf(x, std::clamp(y, LowerY(x), UpperY(x)));
 }
 
-glm::vec3 EyeAnatomy::OnLid(float x, float angle, float radius) const {
+glm::vec3 EyeAnatomy::LidPoint(float x, float angle, float radius) const {
   return {x, centre_.y + radius * std::sin(angle), LidAxisZ(x) + radius * std::cos(angle)};
 }
 
@@ -138,7 +138,7 @@ MouthAnatomy::MouthAnatomy(const Table& table)
   }
 }
 
-glm::vec3 MouthAnatomy::Red(Lip lip, float x, float share) const {
+glm::vec3 MouthAnatomy::VermilionPoint(Lip lip, float x, float share) const {
   const bool upper = lip == Lip::kUpper;
   const float height = BorderY(lip, x);
   const float thickness = std::abs(height);

@@ -65,7 +65,7 @@ class EyeAnatomy {
   float LowerAngle(float x) const { return AngleOf(x, lower_(x)); }
   /// Returns the angle at which the closed lids meet.
   float MeetAngle(float x) const;
-  glm::vec3 OnLid(float x, float angle, float radius) const;
+  glm::vec3 LidPoint(float x, float angle, float radius) const;
   const std::vector<LidRing>& lid_rings() const { return lid_rings_; }
 
  private:
@@ -90,7 +90,7 @@ class MouthAnatomy {
   const ToothArch& upper_teeth() const { return upper_teeth_; }
   const ToothArch& lower_teeth() const { return lower_teeth_; }
   /// Returns a point on the red of the lip; `share`: 0 = seam, 1 = vermilion border.
-  glm::vec3 Red(Lip lip, float x, float share) const;
+  glm::vec3 VermilionPoint(Lip lip, float x, float share) const;
   const std::vector<float>& column_x() const { return column_x_; }
   const std::vector<BagRing>& bag_rings() const { return bag_rings_; }
   const BagBend& bag_bend() const { return bag_bend_; }

@@ -45,10 +45,11 @@ glm::vec3 PointOfRing(const EyeAnatomy& eye, const MarginPoint& at, const LidRin
   const float mm = at.upper ? ring.upper_mm : -ring.lower_mm;
   const float radius = eye.LidRadius(at.x);
   const float reach = std::min(1.0f, radius / 9);
-  glm::vec3 p = eye.OnLid(at.x, margin + mm * reach / std::max(radius, 5.0f), radius);
+  glm::vec3 p = eye.LidPoint(at.x, margin + mm * reach / std::max(radius, 5.0f), radius);
   if (at.corner || radius < 7) {
     // Beside the ball the rings are interpolated to the edge of the socket.
-    const glm::vec3 walked = glm::mix(eye.OnLid(at.x, margin, radius), edge, std::abs(mm) / 13.0f);
+    const glm::vec3 walked =
+        glm::mix(eye.LidPoint(at.x, margin, radius), edge, std::abs(mm) / 13.0f);
     p = glm::mix(p, walked, at.corner ? 1.0f : SmoothStep(7, 3, radius));
   }
   p = glm::mix(p, edge, ring.to_orbit);
@@ -77,7 +78,7 @@ LipPoint PointOnLips(const MouthAnatomy& mouth, int k) {
 
 /// Returns a point on the red of the lips; `red`: 0 at the seam, 1 at the vermilion border.
 glm::vec3 PointOfRed(const MouthAnatomy& mouth, const LipPoint& at, float red) {
-  glm::vec3 p = mouth.Red(at.upper ? Lip::kUpper : Lip::kLower, at.x, red);
+  glm::vec3 p = mouth.VermilionPoint(at.upper ? Lip::kUpper : Lip::kLower, at.x, red);
   // The rings pass around the corner side by side.
   p += glm::vec3(1.0f, 0, -0.7f) * (red * 2.0f * SmoothStep(17, mouth.corner().x, at.x));
   p.y += at.upper_lip * 0.5f * red * SmoothStep(14, 22, at.x);
@@ -89,7 +90,7 @@ glm::vec3 PointOfBag(const MouthAnatomy& mouth, const LipPoint& at, const BagRin
   const float corner_x = mouth.corner().x;
   const float open = std::sqrt(std::max(0.0f, 1 - at.x * at.x / (corner_x * corner_x)));
   const float web = bag.web * SmoothStep(bend.web_x[0], bend.web_x[1], at.x);
-  glm::vec3 p = mouth.Red(Lip::kUpper, at.x, 0);
+  glm::vec3 p = mouth.VermilionPoint(Lip::kUpper, at.x, 0);
   p.x *= glm::mix(std::min(bag.widen, 1.0f), bag.widen, std::min(1.0f, bend.width * open));
   p.x *= 1 - web;
   p.y += at.upper_lip * bag.height * (bend.height[0] + bend.height[1] * open);
@@ -114,11 +115,12 @@ void AddLidCurves(const EyeAnatomy& eye, Cage& cage) {
     tag.lid_lower = 1 - tag.lid_upper;
     // First the wet edge behind the margin, then a point back on the ball.
     const float inside = eye.InnerRadius(at.x);
-    const glm::vec3 behind = eye.OnLid(at.x, margin + (at.upper ? 0.35f : -0.35f), inside - 0.2f);
+    const glm::vec3 behind =
+        eye.LidPoint(at.x, margin + (at.upper ? 0.35f : -0.35f), inside - 0.2f);
     glm::vec3 from_ball = behind - eye.centre();
     from_ball.x = std::clamp(from_ball.x, -10.2f, 10.2f);
     Add(cage, "eye0", eye.centre() + (eye.radius() - 0.15f) * glm::normalize(from_ball), tag);
-    Add(cage, "eye1", eye.OnLid(at.x, margin, inside), tag);
+    Add(cage, "eye1", eye.LidPoint(at.x, margin, inside), tag);
     const glm::vec3 edge = cage.position[orbit->second[static_cast<std::size_t>(i)]];
     for (std::size_t r = 0; r < eye.lid_rings().size(); ++r) {
       const LidRing& ring = eye.lid_rings()[r];

@@ -68,8 +68,8 @@ std::vector<float> NeckWeights(std::span<const glm::vec3> ring, std::size_t skin
 
 /// Draws the skin below the collar's edge in, so that it does not come through the cloth. `collar`:
 /// points all around.
-void TuckNeck(const Features& features, std::span<const glm::vec3> collar, std::size_t skin,
-              MeshBuilder& mesh) {
+void PullNeckInside(const Features& features, std::span<const glm::vec3> collar, std::size_t skin,
+                    MeshBuilder& mesh) {
   glm::vec3 axis(0);
   for (const glm::vec3 q : collar) axis += q / static_cast<float>(collar.size());
   const auto outward = [axis](glm::vec3 p) { return glm::vec2(p.x, p.z - axis.z); };
@@ -179,7 +179,7 @@ void BuildCloth(const Identity& identity, MeshBuilder& mesh) {
   }
   const std::vector<glm::vec3> collar(mesh.position.begin() + first + kCollar * kAround,
                                       mesh.position.begin() + first + (kCollar + 1) * kAround);
-  TuckNeck(features, collar, first, mesh);
+  PullNeckInside(features, collar, first, mesh);
   ShadeNeck(features, collar, first, mesh);
   mesh.Grid(Material::kCloth, first, static_cast<int>(kRows.size()), kAround, true);
 }

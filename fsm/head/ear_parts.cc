@@ -6,12 +6,14 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "fsm/base/smooth_step.h"
+
 namespace fsm {
 namespace {
 
 float Bump(glm::vec2 at, glm::vec2 middle, glm::vec2 size) {
   const glm::vec2 d = (at - middle) / size;
-  return std::exp(-0.5f * glm::dot(d, d));
+  return Gaussian(glm::dot(d, d));
 }
 
 float DistanceToLine(glm::vec2 p, const std::vector<glm::vec2>& line) {
@@ -24,9 +26,7 @@ float DistanceToLine(glm::vec2 p, const std::vector<glm::vec2>& line) {
   return least;
 }
 
-float Ridge(float distance, float width) {
-  return std::exp(-0.5f * distance * distance / (width * width));
-}
+float Ridge(float distance, float width) { return Gaussian(distance * distance / (width * width)); }
 
 /// The outer ear in its own plane, seen from the agent's left: u backward and v upward from the
 /// tragus, in millimetres. Heights are measured outward from the side of the head.

@@ -96,8 +96,8 @@ class CropShape {
       const float up = hairline.up + hairline.spread * off * std::abs(off);
       const glm::vec3 root = Direction(azimuth, up);
       if (scalp_.Over(root, 0).y < hairline.lowest) continue;
-      SkinStroke hair = look_.OnSkin(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
-                                     std::min(1.0f, 1 + off), k);
+      SkinStroke hair = look_.SkinHair(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
+                                       std::min(1.0f, 1 + off), k);
       // Curled hair reaches less far.
       const float reach = 1 - hair_.curl.shorter * style_.curl;
       hair.middle = glm::mix(hair.root, hair.middle, reach);

@@ -81,7 +81,7 @@ class LongShape {
       const glm::vec3 root = glm::normalize(edge + before * away);
       if (scalp_.Over(root, 0).y < hairline.lowest) continue;
       hairs.push_back(
-          look_.OnSkin(scalp_, root, way + hairline.turn * before, std::min(1.0f, 1 - off), k));
+          look_.SkinHair(scalp_, root, way + hairline.turn * before, std::min(1.0f, 1 - off), k));
     }
     return hairs;
   }

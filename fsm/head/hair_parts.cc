@@ -127,8 +127,8 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
   }
 }
 
-SkinStroke HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
-                            int seed) const {
+SkinStroke HairLook::SkinHair(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
+                              int seed) const {
   const float length = features_.hairline_length.At(NoiseAt(seed, PaintStream::kHairlineLength)) *
                        (0.4f + 0.6f * strength);
   const glm::vec3 aside = glm::cross(root, along);
@@ -136,7 +136,7 @@ SkinStroke HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along,
       along + features_.hairline_uneven * NoiseAt(seed, PaintStream::kHairlineWay) * aside);
   const glm::vec3 bent = glm::normalize(
       along + features_.hairline_uneven * NoiseAt(seed, PaintStream::kHairlineBend) * aside);
-  const auto at = [&](glm::vec3 d) { return Unroll(scalp.Over(glm::normalize(d), 0)); };
+  const auto at = [&](glm::vec3 d) { return SkinUv(scalp.Over(glm::normalize(d), 0)); };
   const glm::vec3 middle = root + way * (0.5f * length / 100);
   const float cover = features_.hairline_cover.At(NoiseAt(seed, PaintStream::kHairlineCover)) *
                       (0.3f + 0.7f * strength);
@@ -147,7 +147,8 @@ SkinStroke HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along,
           .tint = glm::mix(glm::vec3(1), palette_.hair / palette_.skin, cover)};
 }
 
-void HairLook::LightAsOne(std::span<const glm::vec3> position, std::span<glm::vec3> normal) const {
+void HairLook::AlignNormals(std::span<const glm::vec3> position,
+                            std::span<glm::vec3> normal) const {
   const float below = features_.hair_as_one.below, share = features_.hair_as_one.part;
   for (std::size_t i = 0; i < position.size(); ++i) {
     const glm::vec3 from = position[i] - kHairCentre;

@@ -60,11 +60,11 @@ class HairLook {
   void ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, MeshBuilder& mesh) const;
   /// Returns a hair painted on the skin from `root` (unit direction from kHairCentre) along
   /// `along`. `strength`: 1 = full; a smaller one is shorter and paler.
-  SkinStroke OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
-                    int seed) const;
+  SkinStroke SkinHair(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
+                      int seed) const;
   /// Bends the normals of locks, which are flat strips, towards those of the whole head of hair, so
   /// that they are lit alike. REQUIRES: `position` and `normal` have the same size.
-  void LightAsOne(std::span<const glm::vec3> position, std::span<glm::vec3> normal) const;
+  void AlignNormals(std::span<const glm::vec3> position, std::span<glm::vec3> normal) const;
 
  private:
   const Features& features_;

@@ -10,6 +10,7 @@
 
 #include "embedded/identities.h"
 #include "embedded/sliders.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {
@@ -254,7 +255,7 @@ glm::vec3 SliderWarp::Motion(glm::vec3 p) const {
     for (const float image : {1.0f, -1.0f}) {
       if (image < 0 && field.at.x == 0) continue;
       const glm::vec3 d = (glm::vec3(image * p.x, p.y, p.z) - field.at) / field.radius;
-      const float weight = std::exp(-0.5f * glm::dot(d, d));
+      const float weight = Gaussian(glm::dot(d, d));
       sum += weight * glm::vec3(image * field.by.x, field.by.y, field.by.z);
     }
   }

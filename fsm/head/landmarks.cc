@@ -49,7 +49,7 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
   return landmarks;
 }
 
-glm::vec2 Unroll(glm::vec3 p) {
+glm::vec2 SkinUv(glm::vec3 p) {
   const float turn = std::atan2(p.x, p.z) / kPi;  // -1..1, 0 at the front
   const float share = std::abs(turn);
   constexpr float kFront = 1.0f / 3;

@@ -20,6 +20,6 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
                         const Features& features);
 
 /// Returns the texture coordinates of a base head's point; see HeadSurface::uv.
-glm::vec2 Unroll(glm::vec3 p);
+glm::vec2 SkinUv(glm::vec3 p);
 
 }  // namespace fsm

@@ -76,9 +76,9 @@ class LashBuilder {
       const float ends = SmoothStep(0, 0.2f, share);
       const float soft =
           of_photo_ ? features_.lash_line_dark.photo * SmoothStep(0, 0.5f, share) : 1.0f;
-      const std::uint32_t low = Add(eye_.OnLid(x, Angle(x) - 0.10f / radius, radius - 0.1f), x,
+      const std::uint32_t low = Add(eye_.LidPoint(x, Angle(x) - 0.10f / radius, radius - 0.1f), x,
                                     soft * features_.lash_line_dark.rim.At(ends));
-      const std::uint32_t high = Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x,
+      const std::uint32_t high = Add(eye_.LidPoint(x, Angle(x) + thick / radius, radius + 0.45f), x,
                                      of_photo_ ? 0 : features_.lash_line_dark.above.At(ends));
       if (i > 0) {
         Face(before[0], low, high);
@@ -111,7 +111,7 @@ class LashBuilder {
         ByLid(features_.lash_darkness) +
         (of_photo_ ? features_.lash_photo_dark * NoiseAt(i, PaintStream::kPhotoLashDark) : 0.0f);
     const float rise = ByLid(features_.lash_rise);
-    const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
+    const glm::vec3 root = eye_.LidPoint(x, angle + 0.02f * up, radius);
     // A lash is a curved strip of two segments: outward, then up (the lower ones down).
     const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));
     const glm::vec3 tip = root + length * (0.72f * out + glm::vec3(0, rise, 0));

@@ -46,14 +46,14 @@ namespace fsm {
 namespace {
 
 /// What a head is made of.
-struct Ingredients {
-  explicit Ingredients(Identity own)
+struct HeadSources {
+  explicit HeadSources(Identity own)
       : identity(std::move(own)),
         sliders(Table("tables/sliders.txt", embedded::sliders()), identity.sliders) {
     eye.FillUpperLid(identity.fold.full_mm);
   }
   /// Those of the built-in face that a photo is warped from, in the photo's colours.
-  explicit Ingredients(const PhotoHead& photo) : Ingredients(BuiltInIdentity(photo.base)) {
+  explicit HeadSources(const PhotoHead& photo) : HeadSources(BuiltInIdentity(photo.base)) {
     identity.features = photo.features;
     CopyColours(photo, identity.palette);
     eye.ScaleIris(photo.iris_size);
@@ -73,7 +73,7 @@ struct BaseSkin {
   MeshBuilder mesh;
 };
 
-BaseSkin MakeSkin(const Ingredients& from) {
+BaseSkin MakeSkin(const HeadSources& from) {
   BaseSkin skin;
   skin.cage = ReadCage(Table("tables/curves.txt", embedded::curves()),
                        Table("tables/patches.txt", embedded::patches()), from.eye, from.mouth);
@@ -92,12 +92,12 @@ struct BaseParts {
   std::vector<SkinStroke> skin_strokes;
 };
 
-void AddBrowsAndFolds(const Ingredients& from, const SkinFront& front, BaseParts& parts) {
+void AddBrowsAndFolds(const HeadSources& from, const SkinFront& front, BaseParts& parts) {
   parts.Add(BuildBrows(front, from.identity, parts.mesh));
   parts.Add(BuildLidFolds(front, from.eye, from.identity));
 }
 
-void AddEyesAndMouth(const Ingredients& from, MeshBuilder& mesh) {
+void AddEyesAndMouth(const HeadSources& from, MeshBuilder& mesh) {
   BuildEyes(from.eye, from.identity, mesh);
   BuildTeeth(from.mouth, from.identity, mesh);
   BuildTongue(from.mouth, from.identity, mesh);
@@ -120,19 +120,19 @@ struct FormedHead {
 };
 
 /// Warps the base face to the person in a photo.
-FormedHead WarpToPhoto(const Ingredients& from, const PhotoHead& photo, const BaseSkin& skin,
+FormedHead WarpToPhoto(const HeadSources& from, const PhotoHead& photo, const BaseSkin& skin,
                        const MeshBuilder& base) {
   const Warp warp(photo.points, photo.smooth);
   FormedHead head(HeadForm(from.eye, from.mouth, from.sliders, &warp, photo.eyes, base), base);
-  LeaveOutUnseen(photo, skin.fine.tag, head.mesh);
+  RemoveUnseenSkin(photo, skin.fine.tag, head.mesh);
   if (photo.glasses) {
-    HoldBehindGlasses(*photo.features, glm::vec2(from.eye.centre()), skin.mesh.position.size(),
-                      head.mesh);
+    FreezeSkinBehindGlasses(*photo.features, glm::vec2(from.eye.centre()),
+                            skin.mesh.position.size(), head.mesh);
   }
   return head;
 }
 
-HeadSurface SurfaceOf(const Ingredients& from, const BaseParts& parts, const FormedHead& head) {
+HeadSurface SurfaceOf(const HeadSources& from, const BaseParts& parts, const FormedHead& head) {
   HeadSurface surface;
   SetParts(head.mesh.batches, surface);
   surface.skin_strokes = parts.skin_strokes;
@@ -143,9 +143,9 @@ HeadSurface SurfaceOf(const Ingredients& from, const BaseParts& parts, const For
     surface.opacity = head.mesh.opacity;
   }
   surface.strands = head.mesh.strands;
-  for (const glm::vec3 p : head.base) surface.uv.push_back(Unroll(p));
+  for (const glm::vec3 p : head.base) surface.uv.push_back(SkinUv(p));
   for (std::size_t i = head.base.size(); i < head.mesh.position.size(); ++i)
-    surface.uv.push_back(Unroll(head.mesh.position[i]));
+    surface.uv.push_back(SkinUv(head.mesh.position[i]));
   for (const Side side : kSides) {
     const float size = head.eyes[side].size;
     surface.eyes[side] = {.ball_radius = size * from.eye.radius(),
@@ -157,7 +157,7 @@ HeadSurface SurfaceOf(const Ingredients& from, const BaseParts& parts, const For
   return surface;
 }
 
-RigData RigOf(const Ingredients& from, const BaseSkin& skin, const FormedHead& head,
+RigData RigOf(const HeadSources& from, const BaseSkin& skin, const FormedHead& head,
               const HeadSurface& surface, bool asymmetric) {
   using enum RigStep;
   const Identity& identity = from.identity;
@@ -168,8 +168,8 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const FormedHead& h
   const std::size_t hair_first = head.base.size();
   rig.rest = head.mesh.position;
   rig.rest_normal = Normals(surface.indices, rig.rest, rig.rest.size());
-  HairLook(identity).LightAsOne(std::span(rig.rest).subspan(hair_first),
-                                std::span(rig.rest_normal).subspan(hair_first));
+  HairLook(identity).AlignNormals(std::span(rig.rest).subspan(hair_first),
+                                  std::span(rig.rest_normal).subspan(hair_first));
   rig.bone = head.mesh.bone;
   for (const BakeWeights& vertex : head.mesh.weights) rig.weights.push_back(vertex.skin);
   rig.unit_effects = BuiltInUnits();
@@ -202,7 +202,7 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const FormedHead& h
   return rig;
 }
 
-HeadAsset AssetOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& parts,
+HeadAsset AssetOf(const HeadSources& from, const BaseSkin& skin, const BaseParts& parts,
                   const FormedHead& head, bool asymmetric) {
   HeadAsset asset;
   asset.surface = SurfaceOf(from, parts, head);
@@ -213,7 +213,7 @@ HeadAsset AssetOf(const Ingredients& from, const BaseSkin& skin, const BaseParts
 }
 
 /// Maps the photo onto the skin, evaluated with lids open and shut.
-void MapPhoto(const PhotoHead& photo, const Ingredients& from, const BaseSkin& skin,
+void MapPhoto(const PhotoHead& photo, const HeadSources& from, const BaseSkin& skin,
               const FormedHead& formed, HeadAsset& asset) {
   const std::size_t count = skin.mesh.position.size();
   const Rig rig(asset.rig);
@@ -237,7 +237,7 @@ std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric) {
 }
 
 std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric) {
-  const Ingredients from(std::move(own));
+  const HeadSources from(std::move(own));
   const Identity& identity = from.identity;
   const BaseSkin skin = MakeSkin(from);
   const SkinFront front(skin.fine);
@@ -259,7 +259,7 @@ std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric) {
 
 std::unique_ptr<Head> MakeHead(const PhotoHead& photo) {
   if (!photo.atlas) throw std::runtime_error("a head of a photo without its photo");
-  const Ingredients from(photo);
+  const HeadSources from(photo);
   const BaseSkin skin = MakeSkin(from);
   BaseParts parts{skin.mesh, {}};
   AddPhotoSheet(photo, parts.mesh);
@@ -275,7 +275,7 @@ std::unique_ptr<Head> MakeHead(const PhotoHead& photo) {
 }
 
 Rig MakeSkinRig(const PhotoHead& photo) {
-  const Ingredients from(photo);
+  const HeadSources from(photo);
   const BaseSkin skin = MakeSkin(from);
   const BaseParts alone{skin.mesh, {}};
   const FormedHead head = WarpToPhoto(from, photo, skin, skin.mesh);

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 
@@ -24,8 +27,8 @@ SkinPainter::SkinPainter(const Identity& identity, const EyeAnatomy& eye)
 
 void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
   for (const Spot& spot : spots_) {
-    const glm::vec2 d = (at - spot.at) / spot.size;
-    const float weight = std::exp(-0.5f * (d.x * d.x + d.y * d.y));
+    const glm::vec2 d = (at - spot.centre) / spot.half_size;
+    const float weight = Gaussian(glm::dot(d, d));
     paint.albedo = glm::mix(paint.albedo, palette_.blush, spot.blush * weight);
     paint.openness *= 1 - spot.shade * weight;
   }
@@ -40,10 +43,9 @@ float SkinPainter::Beard(glm::vec2 at, float z) const {
   // Only beside the mouth does the nose end it.
   const float under_nose =
       glm::mix(place.under_nose.Ramp(at.y), 1.0f, place.beside_nose.Ramp(at.x));
-  const glm::vec2 off =
+  const glm::vec2 offset =
       (at - features_.beard_thin_cheek.middle) / features_.beard_thin_cheek.half_size;
-  const float cheek =
-      1 - features_.beard_thin_cheek.part * std::exp(-0.5f * (off.x * off.x + off.y * off.y));
+  const float cheek = 1 - features_.beard_thin_cheek.part * Gaussian(glm::dot(offset, offset));
   return palette_.beard * low * front * under_nose * cheek;
 }
 
@@ -54,8 +56,8 @@ void SkinPainter::AddLid(glm::vec2 at, PaintedSkin& paint) const {
       (eye_.inner_x() + place.inner).Ramp(at.x) * (eye_.outer_x() + place.outer).Ramp(at.x);
   if (ends <= 0) return;
   const float above = at.y - eye_.UpperY(at.x);
-  const float off = (above - place.fold) / place.fold_width;
-  const float fold = std::exp(-0.5f * off * off) * ends;
+  const float offset = (above - place.fold) / place.fold_width;
+  const float fold = Gaussian(offset * offset) * ends;
   const float lid = ends * place.above.Ramp(above) * place.margin.Ramp(above);
   paint.albedo =
       glm::mix(paint.albedo, palette_.skin * features_.lid_colour, features_.lid_tint * lid);

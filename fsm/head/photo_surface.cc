@@ -175,8 +175,8 @@ void AddPhotoSheet(const PhotoHead& head, MeshBuilder& mesh) {
   }
 }
 
-void HoldBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin_count,
-                       MeshBuilder& mesh) {
+void FreezeSkinBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin_count,
+                             MeshBuilder& mesh) {
   const auto& lens = features.photo.lens;
   for (std::size_t i = 0; i < skin_count; ++i) {
     BakeWeights& weights = mesh.weights[i];
@@ -187,7 +187,7 @@ void HoldBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin
   }
 }
 
-void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, MeshBuilder& mesh) {
+void RemoveUnseenSkin(const PhotoHead& head, std::span<const CageTag> tags, MeshBuilder& mesh) {
   NostrilsToSkin(tags, mesh);
   for (auto& batch : mesh.batches) {
     if (batch.material != Material::kSkin) continue;

@@ -21,8 +21,8 @@ void AddPhotoSheet(const PhotoHead& head, MeshBuilder& mesh);
 
 /// Keeps the skin still where glasses rest, which the photo shows on the skin, or they would bend.
 /// `eye`: centre of the left eye at rest, (x, y) of the base identity.
-void HoldBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin_count,
-                       MeshBuilder& mesh);
+void FreezeSkinBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin_count,
+                             MeshBuilder& mesh);
 
 /// Returns how far forward (z, millimetres) the neck reaches at a height above
 /// PhotoHead::skin_bottom_y. Skin behind this line may face the camera but is not the face's. The
@@ -34,7 +34,7 @@ float NeckFrontZ(float above_bottom_mm);
 /// is, and fades the skin beside it (MeshBuilder::opacity). The nostrils' lining becomes skin,
 /// since the photo shows how dark they are. `tags`: those of the skin's vertices, the first of the
 /// mesh.
-void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, MeshBuilder& mesh);
+void RemoveUnseenSkin(const PhotoHead& head, std::span<const CageTag> tags, MeshBuilder& mesh);
 
 /// Gives every vertex of skin and sheet its texture coordinate in the photo, and lids and lips
 /// their own paint. `lip_inside`: colour of lips that roll inward if `head` has none.

@@ -236,7 +236,7 @@ glm::vec3 SkinFront::PointAt(glm::vec2 xy) const {
 }
 
 glm::vec2 SkinFront::UvAt(glm::vec2 xy, Side side) const {
-  return Unroll(PointAt(xy) * glm::vec3(SignOf(side), 1, 1));
+  return SkinUv(PointAt(xy) * glm::vec3(SignOf(side), 1, 1));
 }
 
 }  // namespace fsm

@@ -187,7 +187,7 @@ std::vector<SkinStroke> BuildStubble(const SkinFront& front, const SkinPainter& 
     if (glm::length(tip - root) > 3 * length) continue;  // across an edge
     const auto on_skin = [&](glm::vec3 p) {
       p.x = std::copysign(p.x, at.x);
-      return Unroll(p);
+      return SkinUv(p);
     };
     const float cover =
         features.stubble.cover * (1 + 0.4f * NoiseAt(k, PaintStream::kStubbleCover));

@@ -24,7 +24,7 @@ HeadSurface SurfaceOf(const UnriggedHead& model) {
   if (surface.indices.empty()) throw std::runtime_error("the head has no triangles");
   surface.albedo = model.mesh.albedo;
   surface.openness.assign(model.mesh.position.size(), 1);
-  for (const glm::vec3& p : model.mesh.position) surface.uv.push_back(Unroll(p));
+  for (const glm::vec3& p : model.mesh.position) surface.uv.push_back(SkinUv(p));
   surface.textures = model.textures;
   surface.pbr_materials = model.pbr_materials;
   surface.eyes = model.eyes;

@@ -18,7 +18,7 @@ class FigurePainter {
   FigurePainter(const GlFunctions& gl, const Appearance& appearance, bool software)
       : gl_(gl), appearance_(appearance), software_(software), materials_(gl, appearance) {}
   /// `vertices`: those that on_gpu.arrays is bound to, at least the measured ones.
-  /// `error_pixels`: see Renderer::SetFormError.
+  /// `error_pixels`: see Renderer::SetMaxErrorPixels.
   void Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& vertices, const View& view,
             const Scene& scene, float error_pixels, GlTarget& target);
 

@@ -52,7 +52,7 @@ struct GpuHead {
 /// The heads drawn last. Destroy while its context is current.
 class GpuHeads {
  public:
-  /// Keeps at most `most` heads; the next replaces the one that has not been used for the longest
+  /// Keeps at most `max` heads; the next replaces the one that has not been used for the longest
   /// time. `gl` and `appearance` must outlive it.
   GpuHeads(const GlFunctions& gl, const Appearance& appearance, std::size_t max)
       : gl_(gl), appearance_(appearance), max_(max), rig_programs_(gl) {}

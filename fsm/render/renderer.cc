@@ -52,7 +52,7 @@ class GlRenderer : public Renderer {
   }
 
   void SetViewport(const Viewport& viewport) override { viewport_ = viewport; }
-  void SetFormError(float pixels) override { max_error_pixels_ = pixels; }
+  void SetMaxErrorPixels(float pixels) override { max_error_pixels_ = pixels; }
 
   void DrawVertices(const Head& head, const HeadVertices& vertices, const Figure& figure,
                     const Scene& scene) override {

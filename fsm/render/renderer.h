@@ -44,7 +44,7 @@ class Renderer {
   virtual void SetViewport(const Viewport& viewport) = 0;
   /// Sets by how many pixels a face may be off, so that small ones are drawn with fewer triangles
   /// (CoarseTriangles). Initially 0: all triangles, as measurements on pictures need.
-  virtual void SetFormError(float pixels) = 0;
+  virtual void SetMaxErrorPixels(float pixels) = 0;
   /// REQUIRES: `vertices` belong to `head`.
   virtual void DrawVertices(const Head& head, const HeadVertices& vertices, const Figure& figure,
                             const Scene& scene) = 0;

@@ -6,8 +6,8 @@
 
 namespace fsm {
 
-/// The series of chances by which the renderer paints skin, each for one property. The numbers
-/// stay, as all pictures depend on them.
+/// The series of random numbers by which the renderer paints skin, one for each property. The
+/// numbers stay, as all pictures depend on them.
 enum class SkinSeries : std::uint64_t {
   kBroadPatches = 1,
   kFinePatches = 2,

@@ -17,7 +17,8 @@ constexpr float kStrandMm = 2;      // from no to dense hair; from a lock's midd
 constexpr float kTileMm = 0.5F;     // per millimetre along or across the hairs
 constexpr float kPhotoMm = 0.5F;    // per millimetre in the photo
 constexpr float kPhotoWidth = 300;  // assumed width of a photo, millimetres
-/// A vertex that a blink moves this far (mm) is on a lid, and its error counts this many times.
+/// A vertex that a blink moves this far (mm) is on a lid; its error is multiplied by the second
+/// number.
 constexpr float kLidMoves = 1, kLidCare = 3;
 
 /// Returns states that move the face far, each in another way.

@@ -22,7 +22,7 @@ class VertexFeatures {
   VertexFeatures(const Head& head, const CreaseWeights& creases);
   const glm::vec3& RestOf(std::uint32_t vertex) const { return Of(vertex)[0]; }
   /// Returns the square of the distance of a vertex from the point interpolated between three
-  /// others. It stops when the result exceeds `most`.
+  /// others. It stops when the result exceeds `max`.
   float Difference(std::uint32_t vertex, const std::array<std::uint32_t, 3>& corners,
                    glm::vec3 weights, float max) const {
     const glm::vec3* own = Of(vertex);

@@ -19,7 +19,7 @@ float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
     switch (drive.kind) {
       case kUnit:
         return pose.au[side][number];
-      case kAskedUnit:
+      case kCommandedUnit:
         return Bound(state.au[side][number], 0, kMaxStrength);
       case kMouth:
         return pose.mouth[number];

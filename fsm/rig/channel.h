@@ -23,15 +23,15 @@ struct Displacement {
 /// Names a value of a state that drives the face.
 struct Drive {
   enum class Kind : std::uint8_t {
-    kUnit,         ///< action unit `number`, as it acts (UnitTable::ActingUnits)
-    kAskedUnit,    ///< action unit `number` as the state has it, 0..2, uncombined
-    kMouth,        ///< `number`: index into Pose::mouth
-    kSpokenMouth,  ///< the part of FaceState::mouth beyond mouth_by_hand: speech
-    kHandMouth,    ///< `number`: index into FaceState::mouth_by_hand
-    kBlink,        ///< how far the lids close beyond what action units ask for, 0..1
-    kGazeUp,       ///< upward gaze of an eye, degrees
-    kGazeRight,    ///< gaze of an eye to the viewer's right, degrees
-    kResidual      ///< `number`: index into FaceState::residuals
+    kUnit,           ///< action unit `number`, as it acts (UnitTable::ActingUnits)
+    kCommandedUnit,  ///< action unit `number` as the state has it, 0..2, uncombined
+    kMouth,          ///< `number`: index into Pose::mouth
+    kSpokenMouth,    ///< the part of FaceState::mouth beyond mouth_by_hand: speech
+    kHandMouth,      ///< `number`: index into FaceState::mouth_by_hand
+    kBlink,          ///< how far the lids close beyond what action units ask for, 0..1
+    kGazeUp,         ///< upward gaze of an eye, degrees
+    kGazeRight,      ///< gaze of an eye to the viewer's right, degrees
+    kResidual        ///< `number`: index into FaceState::residuals
   };
   enum class WhichSide : std::uint8_t {
     kRight,

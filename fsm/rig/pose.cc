@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "fsm/base/range.h"
+
 namespace fsm {
 namespace {
 
@@ -29,9 +31,6 @@ constexpr float kGazeOfLids = 25;  // degrees
 constexpr float kUpperLidDown = 6.3f, kUpperLidUp = 3.3f;
 constexpr float kLowerLidDown = 1.7f, kLowerLidUp = 1.3f;
 
-struct Range {
-  float min, max;
-};
 // What people can do; ours but for the jaw: a mandible opens 25-30 degrees and slides about 1 mm
 // forward for every three degrees.
 constexpr Range kHeadRightRange{-80, 80}, kHeadDownRange{-60, 60},
@@ -44,7 +43,7 @@ constexpr Range kJawSlideRange{-4, 12}, kSlideAskedRange{-6, 10}, kJawSwayRange{
 constexpr Range kTongueOutRange{0, 30};                                                    // mm
 constexpr Range kUpperLidRange{-11, 4}, kLowerLidRange{-3, 4};  // mm above the rest
 
-float Within(float value, const Range& range) { return Bound(value, range.min, range.max); }
+float Within(float value, const Range& range) { return Bound(value, range.from, range.to); }
 
 void FollowGaze(float down_degrees, UnitEffects::Lids& lids) {
   const float share = -down_degrees / kGazeOfLids;
@@ -90,13 +89,11 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   for (const Side s : kSides) {
     const float down = Within(state.gaze[s][kDown], kGazeDownRange);
     const float right = Within(state.gaze[s][kToRight], kGazeRightRange);
-    pose.eye[s] = EyeTo({down, right});
+    pose.eye[s] = EyeRotationOf({down, right});
     pose.lids[s] = effects.lids[s];
     FollowGaze(down, pose.lids[s]);
-    pose.lids[s].upper_mm =
-        std::clamp(pose.lids[s].upper_mm, kUpperLidRange.min, kUpperLidRange.max);
-    pose.lids[s].lower_mm =
-        std::clamp(pose.lids[s].lower_mm, kLowerLidRange.min, kLowerLidRange.max);
+    pose.lids[s].upper_mm = kUpperLidRange.Clamp(pose.lids[s].upper_mm);
+    pose.lids[s].lower_mm = kLowerLidRange.Clamp(pose.lids[s].lower_mm);
     const float open = 1 - std::min(1.0f, effects.lids[s].close);
     pose.blink[s] = open * Bound(state.blink[s], 0, 1);
     pose.lids[s].close = 1 - open + pose.blink[s];
@@ -112,7 +109,7 @@ EyeAngles GazeOf(const glm::mat3& eye) {
           glm::degrees(std::atan2(ahead.x, ahead.z))};
 }
 
-glm::mat3 EyeTo(const EyeAngles& gaze) {
+glm::mat3 EyeRotationOf(const EyeAngles& gaze) {
   // The eye turns up first, then sideways; the third column of the matrix is the line of sight.
   return RotationY(glm::radians(gaze[kToRight])) * RotationX(glm::radians(gaze[kDown]));
 }

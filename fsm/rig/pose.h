@@ -35,8 +35,8 @@ float HeadForward(const FaceState& state);
 /// Makes the pose of `state`, clamped to what anatomy allows; a value that is not finite becomes 0.
 Pose MakePose(const FaceState& state, const UnitTable& units);
 
-/// GazeOf returns the gaze angles of an eye's rotation; EyeTo is its inverse.
+/// GazeOf returns the gaze angles of an eye's rotation; EyeRotationOf is its inverse.
 EyeAngles GazeOf(const glm::mat3& eye);
-glm::mat3 EyeTo(const EyeAngles& gaze);
+glm::mat3 EyeRotationOf(const EyeAngles& gaze);
 
 }  // namespace fsm

@@ -20,8 +20,8 @@ glm::mat3 EyeRotation(const EyeRig& eyes, const Pose& pose, Side side) {
   const auto mapped = [](float angle, const GazeRange& range) {
     return std::copysign(std::min(std::abs(angle) / range.gaze_deg, 1.0f) * range.output, angle);
   };
-  return EyeTo({mapped(gaze[kDown], gaze[kDown] < 0 ? ranges->up : ranges->down),
-                mapped(gaze[kToRight], outward ? ranges->outer : ranges->inner)});
+  return EyeRotationOf({mapped(gaze[kDown], gaze[kDown] < 0 ? ranges->up : ranges->down),
+                        mapped(gaze[kToRight], outward ? ranges->outer : ranges->inner)});
 }
 
 step::Eye EyeInState(const RigData& data, const Pose& pose, Side side) {

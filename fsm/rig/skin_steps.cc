@@ -27,7 +27,7 @@ std::size_t MaxNumber(Drive::Kind kind) {
   using enum Drive::Kind;
   switch (kind) {
     case kUnit:
-    case kAskedUnit:
+    case kCommandedUnit:
       return UnitValues::kMax;
     case kMouth:
     case kSpokenMouth:

@@ -325,14 +325,14 @@ TEST(HeadTablesTest, BrowsBendAndThinAsTheirRowSays) {
 TEST(HeadTablesTest, AShavedBeardsHairsLieBelowTheNoseAndNotOnTheLips) {
   const auto hairs = [](const char* row) { return MakeHead(Changed("pygmalion", {row})); };
   const auto shaved = hairs("beard 0"), stubbled = hairs("beard 0.6");
-  const float nose = Unroll(shaved->Landmark("subnasale")).y;
+  const float nose = SkinUv(shaved->Landmark("subnasale")).y;
   const auto below = [nose](const Head& head) {
     return std::ranges::count_if(head.surface().skin_strokes,
                                  [nose](const SkinStroke& h) { return h.root.y < nose; });
   };
   EXPECT_EQ(below(*shaved), 0);
   EXPECT_GT(below(*stubbled), 1000);
-  const float lips = Unroll({0, -44.5f, 80}).y;
+  const float lips = SkinUv({0, -44.5f, 80}).y;
   for (const SkinStroke& h : stubbled->surface().skin_strokes) {
     EXPECT_FALSE(std::abs(h.root.y - lips) < 0.01f && std::abs(h.root.x - 0.5f) < 0.03f)
         << h.root.x << " " << h.root.y;

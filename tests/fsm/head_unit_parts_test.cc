@@ -92,7 +92,7 @@ TEST(HeadUnitPartsTest, ShutLidsMeetOnASoftCurveThatSags) {
   const EyeAnatomy& eye = EyeAnatomy::BuiltIn();
   const auto height = [&eye](float along) {
     const float x = glm::mix(eye.inner_x(), eye.outer_x(), along);
-    return eye.OnLid(x, eye.MeetAngle(x), eye.LidRadius(x)).y;
+    return eye.LidPoint(x, eye.MeetAngle(x), eye.LidRadius(x)).y;
   };
   EXPECT_NEAR(0.5F * (eye.UpperY(eye.inner_x()) + eye.UpperY(eye.outer_x())) - height(0.5F), 3.4F,
               0.1F);

@@ -22,7 +22,7 @@ class Easel {
   explicit Easel(int side)
       : context_(RenderContext::MakeHeadless(side, side)), renderer_(Renderer::Make(*context_)) {}
   Image Draw(const Head& head, const FaceState& state, bool all) {
-    renderer_->SetFormError(all ? 0 : Appearance::BuiltIn().form_error);
+    renderer_->SetMaxErrorPixels(all ? 0 : Appearance::BuiltIn().form_error);
     renderer_->Draw(head, state, {}, Scene{});
     Image image;
     renderer_->Read(image);

@@ -22,11 +22,11 @@ TEST(SideTest, RightComesFirstAndLiesAtNegativeX) {
 
 TEST(AnglesTest, AnEyeLooksDownAndToTheViewersRightByPositiveAngles) {
   const EyeAngles gaze{20, 30};
-  const glm::vec3 ahead = EyeTo(gaze)[2];
+  const glm::vec3 ahead = EyeRotationOf(gaze)[2];
   EXPECT_LT(ahead.y, -0.3F);
   EXPECT_GT(ahead.x, 0.4F);
-  EXPECT_NEAR(GazeOf(EyeTo(gaze))[kDown], 20, 1e-3);
-  EXPECT_NEAR(GazeOf(EyeTo(gaze))[kToRight], 30, 1e-3);
+  EXPECT_NEAR(GazeOf(EyeRotationOf(gaze))[kDown], 20, 1e-3);
+  EXPECT_NEAR(GazeOf(EyeRotationOf(gaze))[kToRight], 30, 1e-3);
 }
 
 TEST(AnglesTest, AHeadTurnsDownAndToTheViewersRightByPositiveAngles) {

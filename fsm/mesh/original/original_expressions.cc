@@ -102,10 +102,10 @@ class ExpressionReader {
     // ones.
     if (const auto known = seen_.find(text); known != seen_.end()) return known->second;
     const PntFile file = vm::OrThrow(ParsePnt(path, text));
-    return seen_.emplace(std::move(text), TakeApart(Offsets(path, file), path)).first->second;
+    return seen_.emplace(std::move(text), Decompose(Offsets(path, file), path)).first->second;
   }
 
-  OriginalExpression TakeApart(const NnlsSolver::Row& offsets, const std::string& path) {
+  OriginalExpression Decompose(const NnlsSolver::Row& offsets, const std::string& path) {
     const NnlsSolver::Parts parts = units_.Solve(offsets);
     OriginalExpression made;
     for (std::size_t i = 0; i < kOriginalUnits; ++i) {

@@ -59,7 +59,7 @@ class OriginalRigBaker {
 
  private:
   static Drive Asked(std::size_t unit, Side side) {
-    return {.kind = Drive::Kind::kAskedUnit,
+    return {.kind = Drive::Kind::kCommandedUnit,
             .number = static_cast<std::uint16_t>(unit),
             .side = Drive::OnlyOf(side)};
   }

@@ -189,7 +189,7 @@ std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, Unrig
 
 /// Colours the lips, and their inside, of a head without pictures: as red relative to its skin as
 /// those of the source.
-void RedLips(const Head& source, std::span<const Row> rows, UnriggedHead& model) {
+void ColourLips(const Head& source, std::span<const Row> rows, UnriggedHead& model) {
   if (model.textures.base_colour) return;
   const HeadSurface& surface = source.surface();
   std::vector<bool> lip(surface.albedo.size(), false);
@@ -293,7 +293,7 @@ RigData TransferRig(UnriggedHead& model, const Head& source, std::span<const Poi
   rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};  // twice, as in make_head.cc
   rig.proxy.to_own = OwnForm(rig, model, rows);
   MoveLips(model, pairs, rig.proxy.to_own);
-  RedLips(source, rows, model);
+  ColourLips(source, rows, model);
   rig.steps.push_back(kOwnForm);
   return rig;
 }

@@ -75,8 +75,8 @@ void MarkLipsAndLids(WeldedSurface& surface, std::span<const LipSeed> seeds) {
 
 /// Diffuses values over a surface: vertices without a weight take the mean of their neighbours.
 template <typename T>
-void Spread(const WeldedSurface& surface, std::vector<T>& value, std::vector<float> weight,
-            int rounds) {
+void Diffuse(const WeldedSurface& surface, std::vector<T>& value, std::vector<float> weight,
+             int rounds) {
   for (int round = 0; round < rounds; ++round) {
     const std::vector<T> old = value;
     const std::vector<float> old_weight = weight;
@@ -170,7 +170,7 @@ void PullTowards(WeldedSurface& pulled, const WeldedSurface& target, float reach
     by[i] = glm::dot(hit->at - pulled.at[i], pulled.normal[i]) * pulled.normal[i];
     weight[i] = SmoothStep(reach, 0.4f * reach, hit->distance_mm);
   }
-  Spread(pulled, by, weight, rounds);
+  Diffuse(pulled, by, weight, rounds);
   for (std::size_t i = 0; i < pulled.at.size(); ++i) pulled.at[i] += 0.8f * by[i];
   pulled.FindNormals();
 }

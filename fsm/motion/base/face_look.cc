@@ -67,7 +67,7 @@ FaceLook ReadLook(const TableRow& row, std::size_t first, const UnitNames& names
       row.Refuse(fmt::format("'{}' found, a weight from 0 to 2 expected", value));
     }
     UnitSetting setting{*unit, *weight};
-    TakeOwnSide(setting, names);
+    KeepOwnSide(setting, names);
     SetUnit(look, setting);
   }
   return look;

@@ -185,7 +185,7 @@ vm::Result<ParsedUnit> ReadUnit(std::span<const Word>& words, const UnitNames& n
     unit->unit.strength = *strength;
   }
   words = words.subspan(unit->strength_given ? 1 : 2);
-  TakeOwnSide(unit->unit, names);
+  KeepOwnSide(unit->unit, names);
   return unit;
 }
 
@@ -249,7 +249,7 @@ vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names
                                                    word.substr(0, 60), UnitsExpected(word, names)));
 }
 
-void TakeOwnSide(UnitSetting& unit, const UnitNames& names) {
+void KeepOwnSide(UnitSetting& unit, const UnitNames& names) {
   if (unit.left && unit.strength > 0 && names.IsOneSided(unit.number)) unit.right = false;
 }
 

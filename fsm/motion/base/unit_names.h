@@ -52,7 +52,7 @@ struct UnitSetting : UnitName {
 };
 /// Leaves a unit that is inherently of one side only the agent's left if it has both and is not
 /// reset.
-void TakeOwnSide(UnitSetting& unit, const UnitNames& names);
+void KeepOwnSide(UnitSetting& unit, const UnitNames& names);
 /// The strengths of the intensity letters of FACS, A trace .. E maximum (Ekman and Friesen 1978).
 inline constexpr std::array<double, 5> kIntensity = {0.1, 0.3, 0.5, 0.75, 1.0};
 

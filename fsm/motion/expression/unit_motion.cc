@@ -28,7 +28,7 @@ vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view text) {
 
 void UnitMotion::Set(vm::Time now, int unit, double strength) {
   UnitSetting setting{{.number = unit}, strength};
-  TakeOwnSide(setting, names_);
+  KeepOwnSide(setting, names_);
   SetOne(now, setting, kUnitMove);
 }
 

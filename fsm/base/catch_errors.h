@@ -10,7 +10,7 @@ namespace fsm {
 
 /// Returns what `act` returns, or kUnavailable with `doing` and the text of what it throws.
 template <typename Act>
-vm::Result<std::invoke_result_t<Act>> Caught(const std::string& doing, const Act& act) try {
+vm::Result<std::invoke_result_t<Act>> CatchErrors(const std::string& doing, const Act& act) try {
   if constexpr (std::is_void_v<std::invoke_result_t<Act>>) {
     act();
     return {};
