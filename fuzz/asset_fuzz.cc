@@ -33,8 +33,7 @@ fsm::Head SmallHead() {
     rig.weights[i].jaw = 0.1F * static_cast<float>(i);
   }
   rig.normals.soft_triangles = {0, 1, 2, 3, 4, 5};
-  rig.unit_effects =
-      fsm::UnitTable(fsm::Table("units", "field 4 10 20 15 15 both 1 2 3\nclose 43 1"));
+  rig.units = fsm::UnitTable(fsm::Table("units", "field 4 10 20 15 15 both 1 2 3\nclose 43 1"));
   rig.units_by_place = true;
   using Kind = fsm::Drive::Kind;
   for (int kind = 0; kind <= static_cast<int>(Kind::kResidual); ++kind) {

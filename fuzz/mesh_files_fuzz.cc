@@ -49,7 +49,7 @@ struct Ball {
       }
     }
     for (std::size_t v = 0; v < place.size(); v += 5) {
-      const auto on = static_cast<fsm::LipOrLid>(v % 5 == 0 ? v / 5 % 5 : 0);
+      const auto on = static_cast<fsm::FaceFeature>(v % 5 == 0 ? v / 5 % 5 : 0);
       pairs.push_back({place[v], place[v], on});
     }
   }
@@ -163,7 +163,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 0:
       if (const auto file = fsm::ParsePnt("f", text)) {
         for (const auto& name : file->names) {
-          if (file->index.at(name) >= file->at.size()) __builtin_trap();
+          if (file->index.at(name) >= file->positions.size()) __builtin_trap();
         }
       }
       break;

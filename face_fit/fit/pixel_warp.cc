@@ -128,7 +128,7 @@ FittedHead WarpToPixels(const ObservedHead& base, const CameraPose& pose,
     const PixelConstraint& constraint = constraints[of];
     const glm::vec3 q = pose.ToCamera(constraint.on_head.On(fitted.posed_vertices));
     const glm::vec3 target = pose.PositionOf(constraint.pixel, q.z);
-    fitted.warp_points[warp_point].by += kCorrectionGain * (target - pose.FromCamera(q));
+    fitted.warp_points[warp_point].displacement += kCorrectionGain * (target - pose.FromCamera(q));
   }
   fitted.posed_vertices = PosedSkin(fitted);
   return fitted;

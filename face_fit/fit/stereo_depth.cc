@@ -44,7 +44,7 @@ StereoFit CorrectDepthByStereo(const fsm::Image& front_photo, const fsm::Image& 
     if (depths.empty()) break;
     const fsm::Warp rough(depths, kRoughSmoothMm);
     std::erase_if(depths, [&](const fsm::WarpPoint& measured) {
-      return std::abs(rough.Motion(measured.at).z - measured.by.z) > kMistakenMm;
+      return std::abs(rough.Motion(measured.position).z - measured.displacement.z) > kMistakenMm;
     });
     if (depths.size() < kMinDepths) break;
     const fsm::Warp depth(depths, kDepthSmoothMm);

@@ -34,11 +34,11 @@ std::vector<std::uint32_t> LidSites(const fsm::RigData& rig) {
   for (const fsm::Side side : fsm::kSides) {
     for (const bool upper : {true, false}) {
       const auto part = [upper](const fsm::LidRig::Vertex& v) {
-        return upper ? v.at.upper : v.at.lower;
+        return upper ? v.point.upper : v.point.lower;
       };
       std::vector<fsm::LidRig::Vertex> lid;
       for (const fsm::LidRig::Vertex& v : rig.lids.vertices) {
-        if (v.side == side && part(v) > 0.5F && v.at.opening > 0.4F) lid.push_back(v);
+        if (v.side == side && part(v) > 0.5F && v.point.opening > 0.4F) lid.push_back(v);
       }
       std::ranges::stable_sort(lid,
                                [&](const auto& a, const auto& b) { return part(a) > part(b); });
@@ -191,7 +191,7 @@ std::vector<std::string> PaperUnits() {
 
 std::vector<std::vector<Label>> Mixtures(const std::vector<std::string>& units, std::size_t count,
                                          const fsm::Head& head, bool apart, std::uint64_t seed) {
-  const fsm::UnitTable& table = head.rig().data().unit_effects;
+  const fsm::UnitTable& table = head.rig().data().units;
   std::vector<std::vector<Label>> out;
   std::set<std::set<std::string>> seen;
   const auto draw = [seed](std::uint64_t stream, std::int64_t i, std::size_t below) {

@@ -89,7 +89,7 @@ std::vector<std::uint32_t> FaceSkin(const fsm::Head& head) {
     }
   }
   for (const fsm::LidRig::Vertex& lid : rig.lids.vertices) {
-    if (std::max(lid.at.upper, lid.at.lower) > 0.5F) chosen[lid.vertex] = true;
+    if (std::max(lid.point.upper, lid.point.lower) > 0.5F) chosen[lid.vertex] = true;
   }
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t i = 0; i < chosen.size(); ++i) {

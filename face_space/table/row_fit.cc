@@ -58,8 +58,8 @@ std::string UnitRows::Text(int number) const {
                             : *field.lip == fsm::Lip::kUpper ? "above"
                                                              : "below";
     text += fmt::format("field {} {:.4g} {:.4g} {:.4g} {:.4g} {} {:.4g} {:.4g} {:.4g}\n", number,
-                        field.at.x, field.at.y, field.radius.x, field.radius.y, lip, field.by.x,
-                        field.by.y, field.by.z);
+                        field.centre.x, field.centre.y, field.radius.x, field.radius.y, lip,
+                        field.displacement.x, field.displacement.y, field.displacement.z);
   }
   if (lid_upper_mm != 0 || lid_lower_mm != 0) {
     text += fmt::format("lid {} {:.3g} {:.3g}\n", number, lid_upper_mm, lid_lower_mm);
@@ -140,8 +140,11 @@ void RowFitter::AddCandidates(Acting acting) {
       for (const auto lip : {std::optional<fsm::Lip>{}, {fsm::Lip::kUpper}, {fsm::Lip::kLower}}) {
         if (lip && !lips) continue;
         Candidate candidate;
-        candidate.field = {
-            .unit = 0, .at = {x, y}, .radius = {radius, radius}, .lip = lip, .by = {1, 1, 1}};
+        candidate.field = {.unit = 0,
+                           .centre = {x, y},
+                           .radius = {radius, radius},
+                           .lip = lip,
+                           .displacement = {1, 1, 1}};
         candidate.acting = acting;
         const auto count = static_cast<Eigen::Index>(vertices_.size());
         candidate.along_x = candidate.along_yz = Eigen::VectorXd::Zero(count);
@@ -253,8 +256,8 @@ std::vector<RowFitter::Part> RowFitter::PartsOf(const Problem& problem, bool sid
     Field field = problem.fields[f]->field;
     const auto c = static_cast<Eigen::Index>(3 * f);
     for (int k = 0; k < 3; ++k)
-      field.by[k] = std::clamp(Rounded(problem.solution[c + k]), -100.0F, 100.0F);
-    if (glm::length(field.by) < 0.02F) continue;
+      field.displacement[k] = std::clamp(Rounded(problem.solution[c + k]), -100.0F, 100.0F);
+    if (glm::length(field.displacement) < 0.02F) continue;
     const bool right = problem.fields[f]->acting == Acting::kRightOnly;
     parts[right ? 1 : 0].rows.fields.push_back(field);
   }

@@ -26,9 +26,9 @@ std::string_view RegionOf(const WrittenUnit& unit) {
   for (const RowFitter::Part& part : unit.parts) {
     const UnitRows& rows = part.rows;
     for (const auto& field : rows.fields) {
-      const double size =
-          static_cast<double>(glm::dot(field.by, field.by) * field.radius.x * field.radius.y);
-      (field.at.y > 26 ? brow : field.at.y > -2 ? eye : mouth) += size;
+      const double size = static_cast<double>(glm::dot(field.displacement, field.displacement) *
+                                              field.radius.x * field.radius.y);
+      (field.centre.y > 26 ? brow : field.centre.y > -2 ? eye : mouth) += size;
     }
     eye += 200 * (rows.lid_upper_mm * rows.lid_upper_mm + rows.lid_lower_mm * rows.lid_lower_mm);
     mouth += 200 * rows.jaw_degrees;

@@ -134,7 +134,7 @@ void Members(V& v, Like<SkinWeights> auto& weights) {
 template <typename V>
 void Members(V& v, Like<Displacement> auto& displacement) {
   v("vertex", displacement.vertex);
-  v("by", displacement.by);
+  v("by", displacement.offset);
 }
 
 template <typename V>
@@ -188,15 +188,15 @@ template <typename V>
 void Members(V& v, Like<LidRig::Vertex> auto& lid) {
   v("vertex", lid.vertex);
   v("side", lid.side);
-  v("upper", lid.at.upper);
-  v("lower", lid.at.lower);
-  v("upper_angle", lid.at.upper_angle);
-  v("lower_angle", lid.at.lower_angle);
-  v("meet_angle", lid.at.meet_angle);
-  v("opening", lid.at.opening);
-  v("y", lid.at.y);
-  v("z", lid.at.z);
-  v("proper", lid.proper);
+  v("upper", lid.point.upper);
+  v("lower", lid.point.lower);
+  v("upper_angle", lid.point.upper_angle);
+  v("lower_angle", lid.point.lower_angle);
+  v("meet_angle", lid.point.meet_angle);
+  v("opening", lid.point.opening);
+  v("y", lid.point.y);
+  v("z", lid.point.z);
+  v("proper", lid.is_lid);
 }
 
 template <typename V>
@@ -263,7 +263,7 @@ void Members(V& v, Like<SpringWeight> auto& weight) {
   v("weight", weight.weight);
 }
 
-/// Lists all members except `unit_effects`, which are stored as the text of their table.
+/// Lists all members except `units`, which are stored as the text of their table.
 template <typename V>
 void Members(V& v, Like<RigData> auto& rig) {
   v("steps", rig.steps);

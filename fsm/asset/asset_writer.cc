@@ -306,7 +306,7 @@ std::string WriteAsset(const Head& head, std::span<const ExportedShape> shapes) 
   json extension = {{"version", kAssetVersion}};
   extension["surface"] = writer.Write(head.surface());
   extension["rig"] = writer.Write(head.rig().data());
-  extension["rig"]["unit_effects"] = head.rig().data().unit_effects.Text();
+  extension["rig"]["unit_effects"] = head.rig().data().units.Text();
   extension["landmarks"] = writer.Write(head.landmarks());
   extension["view"] = writer.Write(head.view());
   ForeignView(gltf, head, extension).Write(shapes);

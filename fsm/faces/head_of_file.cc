@@ -95,7 +95,7 @@ Alignment AlignByPoints(const HeadPoints& points) {
   float sum = 0, count = 0;
   for (PointPair pair : points.pairs) {
     pair.to = alignment.to_ours(pair.to);
-    if (pair.on == LipOrLid::kUpperLip || pair.on == LipOrLid::kLowerLip) {
+    if (pair.feature == FaceFeature::kUpperLip || pair.feature == FaceFeature::kLowerLip) {
       sum += pair.to.y;
       count += 1;
     }

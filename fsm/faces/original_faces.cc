@@ -80,7 +80,7 @@ ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared, const Log&
   for (const std::string& path : read->without_residual) {
     log("notice: " + path + ": too many unlike expressions; this one is shown as far as units go");
   }
-  for (const OriginalExpression& one : read->all) {
+  for (const OriginalExpression& one : read->expressions) {
     FaceLook& look = looks[one.name][one.pattern];
     for (std::size_t i = 0; i < kOriginalUnits; ++i) {
       const auto unit = static_cast<std::size_t>(kUnitNumbers[i]);

@@ -89,15 +89,15 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
     rig.vertices.push_back(
         {.vertex = static_cast<std::uint32_t>(i),
          .side = side,
-         .at = {.upper = vertex.lid_upper,
-                .lower = vertex.lid_lower,
-                .upper_angle = upper,
-                .lower_angle = lower,
-                .meet_angle = eye.MeetAngle(x),
-                .opening = (eye.UpperY(x) - eye.LowerY(x)) / widest,
-                .y = from_ball.y,
-                .z = from_ball.z + eye.centre().z - eye.LidAxisZ(x)},
-         .proper = glm::length(rest[i] - rig.ball[side]) > transform.size * kOnBall});
+         .point = {.upper = vertex.lid_upper,
+                   .lower = vertex.lid_lower,
+                   .upper_angle = upper,
+                   .lower_angle = lower,
+                   .meet_angle = eye.MeetAngle(x),
+                   .opening = (eye.UpperY(x) - eye.LowerY(x)) / widest,
+                   .y = from_ball.y,
+                   .z = from_ball.z + eye.centre().z - eye.LidAxisZ(x)},
+         .is_lid = glm::length(rest[i] - rig.ball[side]) > transform.size * kOnBall});
   }
   return rig;
 }

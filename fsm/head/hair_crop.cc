@@ -92,12 +92,12 @@ class CropShape {
     for (int k = 0; k < static_cast<int>(hairline.count); ++k) {
       const float azimuth = hairline.azimuth * NoiseAt(k, PaintStream::kHairlinePlace);
       // Most hairs grow close to the line, few in front of it.
-      const float off = NoiseAt(k, PaintStream::kHairlineOff);
-      const float up = hairline.up + hairline.spread * off * std::abs(off);
+      const float deviation = NoiseAt(k, PaintStream::kHairlineOff);
+      const float up = hairline.up + hairline.spread * deviation * std::abs(deviation);
       const glm::vec3 root = Direction(azimuth, up);
       if (scalp_.Over(root, 0).y < hairline.lowest) continue;
       SkinStroke hair = look_.SkinHair(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
-                                       std::min(1.0f, 1 + off), k);
+                                       std::min(1.0f, 1 + deviation), k);
       // Curled hair reaches less far.
       const float reach = 1 - hair_.curl.shorter * style_.curl;
       hair.middle = glm::mix(hair.root, hair.middle, reach);

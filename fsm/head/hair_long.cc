@@ -43,12 +43,12 @@ class LongShape {
   /// Returns the direction of hairs at a place.
   glm::vec3 Along(float around, Side side, float along) const {
     const auto& parting = hair_.parting;
-    const glm::vec3 way =
+    const glm::vec3 direction =
         glm::normalize(Point(around, side, along + 0.02f, 0) -
                        Point(around, side, along - 0.02f, 0) + glm::vec3(0, -1e-3f, 0));
     // At the parting the hairs of both sides rise alike, or the shading would have an edge there.
-    const float off = SmoothStep(0, parting.direction_until, along);
-    return glm::normalize(glm::mix(parting.direction, way, off));
+    const float turned = SmoothStep(0, parting.direction_until, along);
+    return glm::normalize(glm::mix(parting.direction, direction, turned));
   }
 
   /// Returns how far the surface is raised there, millimetres.
@@ -74,14 +74,14 @@ class LongShape {
       const Side side = k % 2 == 0 ? Side::kRight : Side::kLeft;
       const float cap = hairline.to * (0.5f + 0.5f * NoiseAt(k, PaintStream::kHairlinePlace));
       const glm::vec3 edge = Direction(0, side, cap);
-      const glm::vec3 way = glm::normalize(Direction(0, side, cap + 0.02f) - edge);
-      const float off = NoiseAt(k, PaintStream::kHairlineOff);
-      const glm::vec3 before = SignOf(side) * glm::cross(way, edge);  // away from the hair
-      const float away = hairline.before + hairline.spread * off * std::abs(off);
+      const glm::vec3 direction = glm::normalize(Direction(0, side, cap + 0.02f) - edge);
+      const float deviation = NoiseAt(k, PaintStream::kHairlineOff);
+      const glm::vec3 before = SignOf(side) * glm::cross(direction, edge);  // away from the hair
+      const float away = hairline.before + hairline.spread * deviation * std::abs(deviation);
       const glm::vec3 root = glm::normalize(edge + before * away);
       if (scalp_.Over(root, 0).y < hairline.lowest) continue;
-      hairs.push_back(
-          look_.SkinHair(scalp_, root, way + hairline.turn * before, std::min(1.0f, 1 - off), k));
+      hairs.push_back(look_.SkinHair(scalp_, root, direction + hairline.turn * before,
+                                     std::min(1.0f, 1 - deviation), k));
     }
     return hairs;
   }
@@ -335,15 +335,16 @@ class LongHairBuilder {
           flyaways.length * (1 + 0.5f * NoiseAt(seed, PaintStream::kFlyawayLength));
       const float drift = flyaways.drift * NoiseAt(seed, PaintStream::kFlyawayDrift);
       // Most lie close to the others, above all on the skull; few stand far off.
-      const float far = 0.5f + 0.5f * NoiseAt(seed, PaintStream::kFlyawayOff);
-      const float off =
-          flyaways.off * (0.3f + 1.4f * far * far) * flyaways.off_over_along.Ramp(from);
+      const float distance = 0.5f + 0.5f * NoiseAt(seed, PaintStream::kFlyawayOff);
+      const float deviation =
+          flyaways.off * (0.3f + 1.4f * distance * distance) * flyaways.off_over_along.Ramp(from);
       std::vector<glm::vec3> path;
       constexpr int kSteps = 6;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
         path.push_back(shape_.Point(std::clamp(around + drift * v * v, 0.0f, 1.0f), side,
-                                    from + length * v, off * std::sin(kPi * flyaways.arch.At(v))));
+                                    from + length * v,
+                                    deviation * std::sin(kPi * flyaways.arch.At(v))));
       }
       look_.AddLock(path,
                     {.width_mm = flyaways.width,

@@ -30,9 +30,9 @@ float Scalp::Distance(glm::vec3 direction) const {
   float sum = 0;
   float weights = 0;
   for (const auto& [d, length] : points_) {
-    const float off = 1 - glm::dot(d, direction);
-    if (off > 12 * reach) continue;
-    const float weight = std::exp(-off / reach);
+    const float difference = 1 - glm::dot(d, direction);
+    if (difference > 12 * reach) continue;
+    const float weight = std::exp(-difference / reach);
     sum += weight * length;
     weights += weight;
   }
@@ -132,12 +132,12 @@ SkinStroke HairLook::SkinHair(const Scalp& scalp, glm::vec3 root, glm::vec3 alon
   const float length = features_.hairline_length.At(NoiseAt(seed, PaintStream::kHairlineLength)) *
                        (0.4f + 0.6f * strength);
   const glm::vec3 aside = glm::cross(root, along);
-  const glm::vec3 way = glm::normalize(
+  const glm::vec3 direction = glm::normalize(
       along + features_.hairline_uneven * NoiseAt(seed, PaintStream::kHairlineWay) * aside);
   const glm::vec3 bent = glm::normalize(
       along + features_.hairline_uneven * NoiseAt(seed, PaintStream::kHairlineBend) * aside);
   const auto at = [&](glm::vec3 d) { return SkinUv(scalp.Over(glm::normalize(d), 0)); };
-  const glm::vec3 middle = root + way * (0.5f * length / 100);
+  const glm::vec3 middle = root + direction * (0.5f * length / 100);
   const float cover = features_.hairline_cover.At(NoiseAt(seed, PaintStream::kHairlineCover)) *
                       (0.3f + 0.7f * strength);
   return {.root = at(root),

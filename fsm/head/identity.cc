@@ -123,8 +123,8 @@ const std::map<std::string_view, void (*)(const TableRow&, Identity&)> kIdentity
     {"lashes", [](auto& row, auto& identity) { identity.lashes = OnlyNumber(row, 0, 2); }},
     {"brows", ReadBrows},
     {"creases", ReadCreases},
-    {"field", [](auto& row, auto& identity) { identity.unit_effects.Add(row); }},
-    {"lid", [](auto& row, auto& identity) { identity.unit_effects.Add(row); }}};
+    {"field", [](auto& row, auto& identity) { identity.units.Add(row); }},
+    {"lid", [](auto& row, auto& identity) { identity.units.Add(row); }}};
 
 const Table& BuiltInTable() {
   static const Table table("tables/identities.txt", embedded::identities());
@@ -238,7 +238,8 @@ SliderWarp::SliderWarp(const Table& table,
       row.Refuse("a radius must be positive");
     }
     for (const auto& [name, value] : values) {
-      if (name == row.Word(1)) fields_.push_back({field.at, field.radius, value * field.by});
+      if (name == row.Word(1))
+        fields_.push_back({field.centre, field.radius, value * field.displacement});
     }
   }
   for (const auto& [name, value] : values) {
@@ -253,10 +254,11 @@ glm::vec3 SliderWarp::Motion(glm::vec3 p) const {
   for (const Field& field : fields_) {
     // The mirror image acts, too; its sideways component is reversed.
     for (const float image : {1.0f, -1.0f}) {
-      if (image < 0 && field.at.x == 0) continue;
-      const glm::vec3 d = (glm::vec3(image * p.x, p.y, p.z) - field.at) / field.radius;
+      if (image < 0 && field.centre.x == 0) continue;
+      const glm::vec3 d = (glm::vec3(image * p.x, p.y, p.z) - field.centre) / field.radius;
       const float weight = Gaussian(glm::dot(d, d));
-      sum += weight * glm::vec3(image * field.by.x, field.by.y, field.by.z);
+      sum += weight *
+             glm::vec3(image * field.displacement.x, field.displacement.y, field.displacement.z);
     }
   }
   return sum;

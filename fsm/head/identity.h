@@ -76,7 +76,7 @@ struct Identity {
   };
   Brows brows;
   std::array<float, kLastingCreases> creases{};                    ///< by Crease
-  UnitTable unit_effects{};                                        ///< added to BuiltInUnits()
+  UnitTable units{};                                               ///< added to BuiltInUnits()
   std::shared_ptr<const Features> features = Features::BuiltIn();  ///< never null
 };
 
@@ -110,7 +110,7 @@ class SliderWarp {
 
  private:
   struct Field {
-    glm::vec3 at, radius, by;
+    glm::vec3 centre, radius, displacement;
   };
   std::vector<Field> fields_;
 };

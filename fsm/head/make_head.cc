@@ -53,10 +53,11 @@ struct HeadSources {
     eye.FillUpperLid(identity.fold.full_mm);
   }
   /// Those of the built-in face that a photo is warped from, in the photo's colours.
-  explicit HeadSources(const PhotoHead& photo) : HeadSources(BuiltInIdentity(photo.base)) {
-    identity.features = photo.features;
-    CopyColours(photo, identity.palette);
-    eye.ScaleIris(photo.iris_size);
+  explicit HeadSources(const PhotoHead& photo_head)
+      : HeadSources(BuiltInIdentity(photo_head.base)) {
+    identity.features = photo_head.features;
+    CopyColours(photo_head, identity.palette);
+    eye.ScaleIris(photo_head.iris_size);
   }
 
   Identity identity;
@@ -120,13 +121,13 @@ struct FormedHead {
 };
 
 /// Warps the base face to the person in a photo.
-FormedHead WarpToPhoto(const HeadSources& from, const PhotoHead& photo, const BaseSkin& skin,
+FormedHead WarpToPhoto(const HeadSources& from, const PhotoHead& photo_head, const BaseSkin& skin,
                        const MeshBuilder& base) {
-  const Warp warp(photo.points, photo.smooth);
-  FormedHead head(HeadForm(from.eye, from.mouth, from.sliders, &warp, photo.eyes, base), base);
-  RemoveUnseenSkin(photo, skin.fine.tag, head.mesh);
-  if (photo.glasses) {
-    FreezeSkinBehindGlasses(*photo.features, glm::vec2(from.eye.centre()),
+  const Warp warp(photo_head.points, photo_head.smooth);
+  FormedHead head(HeadForm(from.eye, from.mouth, from.sliders, &warp, photo_head.eyes, base), base);
+  RemoveUnseenSkin(photo_head, skin.fine.tag, head.mesh);
+  if (photo_head.glasses) {
+    FreezeSkinBehindGlasses(*photo_head.features, glm::vec2(from.eye.centre()),
                             skin.mesh.position.size(), head.mesh);
   }
   return head;
@@ -172,16 +173,16 @@ RigData RigOf(const HeadSources& from, const BaseSkin& skin, const FormedHead& h
                                   std::span(rig.rest_normal).subspan(hair_first));
   rig.bone = head.mesh.bone;
   for (const BakeWeights& vertex : head.mesh.weights) rig.weights.push_back(vertex.skin);
-  rig.unit_effects = BuiltInUnits();
-  rig.unit_effects.Add(identity.unit_effects);
+  rig.units = BuiltInUnits();
+  rig.units.Add(identity.units);
   if (asymmetric) {
     rig.asymmetry_seed = static_cast<int>(identity.index);
-    rig.unit_effects.MakeAsymmetric(*rig.asymmetry_seed);
+    rig.units.MakeAsymmetric(*rig.asymmetry_seed);
   }
   rig.units_by_place = true;
   rig.creases.at_rest = identity.creases;
   const std::span<const BakeWeights> weights = head.mesh.weights;
-  rig.channels = UnitChannels(rig.unit_effects, rig.bone, rig.weights);
+  rig.channels = UnitChannels(rig.units, rig.bone, rig.weights);
   std::ranges::move(MouthChannels(from.mouth, weights), std::back_inserter(rig.channels));
   rig.lids = BakeLids(from.eye, head.eyes, rig.rest, weights);
   rig.mouth = skin.mouth;
@@ -213,7 +214,7 @@ HeadAsset AssetOf(const HeadSources& from, const BaseSkin& skin, const BaseParts
 }
 
 /// Maps the photo onto the skin, evaluated with lids open and shut.
-void MapPhoto(const PhotoHead& photo, const HeadSources& from, const BaseSkin& skin,
+void MapPhoto(const PhotoHead& photo_head, const HeadSources& from, const BaseSkin& skin,
               const FormedHead& formed, HeadAsset& asset) {
   const std::size_t count = skin.mesh.position.size();
   const Rig rig(asset.rig);
@@ -227,7 +228,7 @@ void MapPhoto(const PhotoHead& photo, const HeadSources& from, const BaseSkin& s
   };
   const PhotoSkin worn{std::span(formed.mesh.weights).first(count), skin.fine.tag, pose(open),
                        pose(shut)};
-  ApplyPhoto(photo, worn, from.identity.palette.lip_inside, asset.surface);
+  ApplyPhoto(photo_head, worn, from.identity.palette.lip_inside, asset.surface);
 }
 
 }  // namespace
@@ -257,28 +258,28 @@ std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric) {
   return std::make_unique<Head>(AssetOf(from, skin, parts, head, asymmetric));
 }
 
-std::unique_ptr<Head> MakeHead(const PhotoHead& photo) {
-  if (!photo.atlas) throw std::runtime_error("a head of a photo without its photo");
-  const HeadSources from(photo);
+std::unique_ptr<Head> MakeHead(const PhotoHead& photo_head) {
+  if (!photo_head.atlas) throw std::runtime_error("a head of a photo without its photo");
+  const HeadSources from(photo_head);
   const BaseSkin skin = MakeSkin(from);
   BaseParts parts{skin.mesh, {}};
-  AddPhotoSheet(photo, parts.mesh);
+  AddPhotoSheet(photo_head, parts.mesh);
   AddBrowsAndFolds(from, SkinFront(skin.fine), parts);
   // The photo shows the lashes of open eyes, so only those of shut lids are added.
   BuildLashes(from.eye, from.identity, true, parts.mesh);
   AddEyesAndMouth(from, parts.mesh);
-  const FormedHead head = WarpToPhoto(from, photo, skin, parts.mesh);
+  const FormedHead head = WarpToPhoto(from, photo_head, skin, parts.mesh);
   HeadAsset asset = AssetOf(from, skin, parts, head, true);
-  asset.rig.creases.depth = photo.lined;
-  Wear(photo, from, skin, head, asset);
+  asset.rig.creases.depth = photo_head.lined;
+  MapPhoto(photo_head, from, skin, head, asset);
   return std::make_unique<Head>(std::move(asset));
 }
 
-Rig MakeSkinRig(const PhotoHead& photo) {
-  const HeadSources from(photo);
+Rig MakeSkinRig(const PhotoHead& photo_head) {
+  const HeadSources from(photo_head);
   const BaseSkin skin = MakeSkin(from);
   const BaseParts alone{skin.mesh, {}};
-  const FormedHead head = WarpToPhoto(from, photo, skin, skin.mesh);
+  const FormedHead head = WarpToPhoto(from, photo_head, skin, skin.mesh);
   return Rig(RigOf(from, skin, head, SurfaceOf(from, alone, head), true));
 }
 

@@ -17,11 +17,11 @@ std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric = true
 /// Makes the head of a user's own identity. Throws std::runtime_error for an unknown slider.
 std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric = true);
 /// Makes a head from a photo: its base face, warped and wearing the photo. Throws as the first, and
-/// std::runtime_error without `photo.atlas`. REQUIRES: sheet_triangles index `sheet`, as
+/// std::runtime_error without `photo_head.atlas`. REQUIRES: sheet_triangles index `sheet`, as
 /// ReadPhotoHead makes sure.
-std::unique_ptr<Head> MakeHead(const PhotoHead& photo);
+std::unique_ptr<Head> MakeHead(const PhotoHead& photo_head);
 /// Makes the rig of the skin alone of such a head, whose vertices are the first of the head. It
 /// does not need the photo.
-Rig MakeSkinRig(const PhotoHead& photo);
+Rig MakeSkinRig(const PhotoHead& photo_head);
 
 }  // namespace fsm

@@ -25,7 +25,7 @@ class SkinPainter {
 
  private:
   struct Spot {
-    glm::vec2 at, size;
+    glm::vec2 centre, half_size;
     float blush, shade;
   };
   void AddSpots(glm::vec2 at, PaintedSkin& paint) const;

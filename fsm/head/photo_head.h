@@ -49,6 +49,6 @@ struct PhotoHead {
 
 /// Reads face.txt; `name` is for error messages. Throws std::runtime_error naming file and line.
 PhotoHead ReadPhotoHead(const std::string& name, std::string_view text);
-std::string WritePhotoHead(const PhotoHead& head);
+std::string WritePhotoHead(const PhotoHead& photo_head);
 
 }  // namespace fsm

@@ -18,22 +18,22 @@ namespace {
 
 /// A place of the skin near an eye and its appearance in the photo.
 struct PhotoSpot {
-  glm::vec2 at;        ///< on the face, millimetres
+  glm::vec2 position;  ///< on the face, millimetres
   glm::vec2 texcoord;  ///< in the photo
   glm::vec3 screen;
   float lit;  ///< brightness of typical skin with this normal
 };
 
-/// Returns means of `places`, weighted by the distance from `at`, which falls off over `reach` mm.
-PhotoSpot MeanAround(std::span<const PhotoSpot> places, glm::vec2 at, float reach) {
+/// Returns means of `spots`, weighted by the distance from `at`, which falls off over `reach` mm.
+PhotoSpot MeanAround(std::span<const PhotoSpot> spots, glm::vec2 at, float reach) {
   PhotoSpot mean{at, glm::vec2(0), glm::vec3(0), 0};
   float weight = 1e-9f;
-  for (const PhotoSpot& l : places) {
-    const glm::vec2 off = (l.at - at) / reach;
-    const float w = std::exp(-glm::dot(off, off)) + 1e-8f;
-    mean.texcoord += w * l.texcoord;
-    mean.screen += w * l.screen;
-    mean.lit += w * l.lit;
+  for (const PhotoSpot& spot : spots) {
+    const glm::vec2 offset = (spot.position - at) / reach;
+    const float w = std::exp(-glm::dot(offset, offset)) + 1e-8f;
+    mean.texcoord += w * spot.texcoord;
+    mean.screen += w * spot.screen;
+    mean.lit += w * spot.lit;
     weight += w;
   }
   mean.texcoord /= weight;
@@ -46,8 +46,8 @@ PhotoSpot MeanAround(std::span<const PhotoSpot> places, glm::vec2 at, float reac
 float HeightAt(std::span<const glm::vec2> line, float x) {
   float sum = 0, weight = 1e-9f;
   for (const glm::vec2 p : line) {
-    const float off = p.x - x;
-    const float w = std::exp(-off * off) + 1e-8f;
+    const float offset = p.x - x;
+    const float w = std::exp(-offset * offset) + 1e-8f;
     sum += w * p.y;
     weight += w;
   }
@@ -56,23 +56,23 @@ float HeightAt(std::span<const glm::vec2> line, float x) {
 
 /// The affine map from points on the face to texture coordinates, fitted to spots.
 struct PhotoPlane {
-  glm::vec2 at{0}, texcoord{0};  ///< centroid
+  glm::vec2 centroid{0}, texcoord{0};
   glm::mat2 slope{0};
-  glm::vec2 operator()(glm::vec2 p) const { return texcoord + slope * (p - at); }
+  glm::vec2 operator()(glm::vec2 p) const { return texcoord + slope * (p - centroid); }
 };
 
-PhotoPlane PhotoByFace(std::span<const PhotoSpot> all) {
+PhotoPlane PhotoByFace(std::span<const PhotoSpot> spots) {
   PhotoSpot mean{glm::vec2(0), glm::vec2(0), glm::vec3(0), 0};
-  for (const PhotoSpot& l : all) {
-    mean.at += l.at / static_cast<float>(all.size());
-    mean.texcoord += l.texcoord / static_cast<float>(all.size());
+  for (const PhotoSpot& spot : spots) {
+    mean.position += spot.position / static_cast<float>(spots.size());
+    mean.texcoord += spot.texcoord / static_cast<float>(spots.size());
   }
   glm::mat2 spread(1e-6f), both(0);
-  for (const PhotoSpot& l : all) {
-    spread += glm::outerProduct(l.at - mean.at, l.at - mean.at);
-    both += glm::outerProduct(l.texcoord - mean.texcoord, l.at - mean.at);
+  for (const PhotoSpot& spot : spots) {
+    spread += glm::outerProduct(spot.position - mean.position, spot.position - mean.position);
+    both += glm::outerProduct(spot.texcoord - mean.texcoord, spot.position - mean.position);
   }
-  return {mean.at, mean.texcoord, both * glm::inverse(spread)};
+  return {mean.position, mean.texcoord, both * glm::inverse(spread)};
 }
 
 /// What a photo shows around one eye.
@@ -107,18 +107,18 @@ std::optional<EyeSurroundings> MeasureEye(const PhotoMapping& mapping, const Pho
   }
   if (upper_rim.empty() || lower_rim.empty()) return {};
   std::vector<PhotoSpot> below = around;
-  std::erase_if(below, [&](const PhotoSpot& l) {
-    return l.at.y > HeightAt(lower_rim, l.at.x) - lid.skin_below.margin;
+  std::erase_if(below, [&](const PhotoSpot& spot) {
+    return spot.position.y > HeightAt(lower_rim, spot.position.x) - lid.skin_below.margin;
   });
   for (SkinSample& s : samples) {
     // Along the margins the photo shows lashes.
     float away = 100;
-    for (const glm::vec2 rim : rims) away = std::min(away, glm::distance(rim, s.at));
-    s.near = away < (glasses ? lid.near.glasses : lid.near.plain);
-    s.known = (s.above ? lid.past_lashes.upper : lid.past_lashes.lower).Ramp(away);
+    for (const glm::vec2 rim : rims) away = std::min(away, glm::distance(rim, s.position));
+    s.beside_lid = away < (glasses ? lid.near.glasses : lid.near.plain);
+    s.confidence = (s.above ? lid.past_lashes.upper : lid.past_lashes.lower).Ramp(away);
   }
   // Only skin is bright above an eye, unless glasses reflect light there.
-  DoubtOddSkin(samples, glasses ? lid.odd_skin.glasses : lid.odd_skin.plain);
+  DownweightOutliers(samples, glasses ? lid.odd_skin.glasses : lid.odd_skin.plain);
   // Skin below an eye is thin and bluish: half of the hue is the face's. Lenses add their own.
   const glm::vec3 skin_below = MeanBelow(samples);
   const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());

@@ -23,8 +23,9 @@ void Desaturate(Palette& palette, float saturation) {
 }
 
 /// Reddens lips where they are wet and thin-skinned, as far as the photo has colours.
-glm::vec3 Wetter(const PhotoHead& head, glm::vec3 lip, float share) {
-  return lip * glm::mix(glm::vec3(1), head.features->photo.mouth.wet_skin, share * head.saturation);
+glm::vec3 Wetter(const PhotoHead& photo_head, glm::vec3 lip, float share) {
+  return lip * glm::mix(glm::vec3(1), photo_head.features->photo.mouth.wet_skin,
+                        share * photo_head.saturation);
 }
 
 void NostrilsToSkin(std::span<const CageTag> tags, MeshBuilder& mesh) {
@@ -47,10 +48,10 @@ void NostrilsToSkin(std::span<const CageTag> tags, MeshBuilder& mesh) {
 
 /// A photo of a closed mouth does not show where the lips roll inward. As they part, their own
 /// colour becomes redder and darker from the line where they met, until it is that of the lining.
-void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 lip_inside,
+void RollLips(const PhotoHead& photo_head, std::span<const CageTag> tags, glm::vec3 lip_inside,
               HeadSurface& surface) {
-  const auto& roll = head.features->photo.lip_roll;
-  const glm::vec3 lip = head.lip_colour.value_or(lip_inside);
+  const auto& roll = photo_head.features->photo.lip_roll;
+  const glm::vec3 lip = photo_head.lip_colour.value_or(lip_inside);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const CageTag& tag = tags[i];
     if (tag.red < 0 || tag.deep > 0.4f) continue;
@@ -66,7 +67,7 @@ void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 li
     const glm::vec3 dry = glm::mix(surface.albedo[i], lip, roll.dry + (1 - roll.dry) * wet);
     // Light within the mouth has passed through flesh.
     const float inside = roll.inside.Ramp(outward);
-    surface.albedo[i] = Wetter(head, Wetter(head, dry, 1), inside);
+    surface.albedo[i] = Wetter(photo_head, Wetter(photo_head, dry, 1), inside);
     surface.openness[i] = glm::mix(1.0f, roll.inside_light, inside);
     surface.textures.weight[i] = 1 - wet;
   }
@@ -95,14 +96,14 @@ std::vector<float> RelitShares(const Features& features, const PhotoSkin& skin) 
 }
 
 /// Lashes become thin and pale with age, for which creases are the evidence.
-void ThinLashes(const PhotoHead& head, HeadSurface& surface) {
-  const auto& lashes = head.features->photo.shut_lashes;
-  const glm::vec3 colour = glm::mix(lashes.grey, lashes.colour, head.saturation);
+void ThinLashes(const PhotoHead& photo_head, HeadSurface& surface) {
+  const auto& lashes = photo_head.features->photo.shut_lashes;
+  const glm::vec3 colour = glm::mix(lashes.grey, lashes.colour, photo_head.saturation);
   for (const auto& part : surface.parts) {
     if (part.material != Material::kShutLash) continue;
     const auto corners = surface.Corners(part);
     for (const std::uint32_t v : std::set<std::uint32_t>(corners.begin(), corners.end())) {
-      surface.opacity[v] *= 1 - lashes.lost * head.lined;
+      surface.opacity[v] *= 1 - lashes.lost * photo_head.lined;
       surface.albedo[v] = colour;
     }
   }
@@ -110,22 +111,23 @@ void ThinLashes(const PhotoHead& head, HeadSurface& surface) {
 
 /// Returns the sheet's weight of the jaw: almost 1 beside the chin and the jaw line, so that
 /// nothing comes out from behind them; farther down skin and clothes are compressed.
-float JawShare(const PhotoHead& head, glm::vec3 p) {
-  const auto& sheet = head.features->photo.sheet;
-  const float line = head.skin_bottom_y + sheet.chin + sheet.chin_round * p.x * p.x;
+float JawShare(const PhotoHead& photo_head, glm::vec3 p) {
+  const auto& sheet = photo_head.features->photo.sheet;
+  const float line = photo_head.skin_bottom_y + sheet.chin + sheet.chin_round * p.x * p.x;
   return sheet.jaw * (line + sheet.jaw_above).Ramp(p.y) * (line + sheet.jaw_below).Ramp(p.y) *
          sheet.jaw_aside.Ramp(std::abs(p.x));
 }
 
 /// Returns the opacity of skin over the sheet, which shows the same beside it: skin fades where the
 /// cameras saw it at a grazing angle.
-float SeenSkin(const PhotoHead& head, glm::vec3 p, glm::vec3 normal) {
-  const auto& seen = head.features->photo.skin;
-  const float above = p.y - head.skin_bottom_y;
+float SeenSkin(const PhotoHead& photo_head, glm::vec3 p, glm::vec3 normal) {
+  const auto& seen = photo_head.features->photo.skin;
+  const float above = p.y - photo_head.skin_bottom_y;
   // Within the face all skin stays: lids and nostrils face all directions.
   if (p.z > seen.face_z && above > seen.face_above) return 1;
-  float faces = glm::dot(normal, head.seen_from);
-  for (const glm::vec3 camera : head.also_seen) faces = std::max(faces, glm::dot(normal, camera));
+  float faces = glm::dot(normal, photo_head.seen_from);
+  for (const glm::vec3 camera : photo_head.also_seen)
+    faces = std::max(faces, glm::dot(normal, camera));
   // Behind the chin skin stays opaque: it covers the sheet's underside, visible from the side.
   const float chin = seen.chin_above.Ramp(above) * seen.chin_aside.Ramp(std::abs(p.x)) *
                      seen.chin_down.Ramp(normal.y);
@@ -136,40 +138,40 @@ float SeenSkin(const PhotoHead& head, glm::vec3 p, glm::vec3 normal) {
 
 }  // namespace
 
-void CopyColours(const PhotoHead& head, Palette& palette) {
-  const auto& mouth = head.features->photo.mouth;
-  palette.iris = head.iris_colour;
-  palette.sclera = head.white_colour;
-  Desaturate(palette, head.saturation);
-  if (head.lip_colour) {
+void CopyColours(const PhotoHead& photo_head, Palette& palette) {
+  const auto& mouth = photo_head.features->photo.mouth;
+  palette.iris = photo_head.iris_colour;
+  palette.sclera = photo_head.white_colour;
+  Desaturate(palette, photo_head.saturation);
+  if (photo_head.lip_colour) {
     // Where the lips roll inward the mouth is painted, beginning in their colour.
-    palette.lip_inside = *head.lip_colour / mouth.lips_light;
-    palette.mouth = mouth.light * Wetter(head, palette.lip_inside, mouth.wet);
+    palette.lip_inside = *photo_head.lip_colour / mouth.lips_light;
+    palette.mouth = mouth.light * Wetter(photo_head, palette.lip_inside, mouth.wet);
   }
   // Teeth are in light whose hue the sclera shows. It comes from the front, where the
   // photographer's lamp is, and reaches into the mouth.
-  const glm::vec3 white = head.white_colour;
+  const glm::vec3 white = photo_head.white_colour;
   palette.tooth *=
-      mouth.teeth * head.teeth *
+      mouth.teeth * photo_head.teeth *
       glm::mix(glm::vec3(1), white / std::max({white.r, white.g, white.b, 1e-3f}), mouth.teeth_hue);
-  palette.tongue *= mouth.tongue * head.teeth;
+  palette.tongue *= mouth.tongue * photo_head.teeth;
 }
 
 float NeckFrontZ(float above_bottom_mm) { return 30 * SmoothStep(48, 36, above_bottom_mm); }
 
-void AddPhotoSheet(const PhotoHead& head, MeshBuilder& mesh) {
+void AddPhotoSheet(const PhotoHead& photo_head, MeshBuilder& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
-  for (const auto& vertex : head.sheet) {
+  for (const auto& vertex : photo_head.sheet) {
     BakeWeights weights{.follows = BakeWeights::Follows::kNothing};  // it is in its final place
     weights.skin.free = 0;
     weights.skin.domain = vertex.position;
     // The shoulders follow a turning head a little.
     weights.skin.neck =
-        glm::mix(head.features->photo.sheet.shoulders, 1.0f, NeckWeight(vertex.position.y));
-    weights.skin.jaw = JawShare(head, vertex.position);
+        glm::mix(photo_head.features->photo.sheet.shoulders, 1.0f, NeckWeight(vertex.position.y));
+    weights.skin.jaw = JawShare(photo_head, vertex.position);
     mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kSkin, weights);
   }
-  const auto& t = head.sheet_triangles;
+  const auto& t = photo_head.sheet_triangles;
   for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
     mesh.Triangle(Material::kTextured, first + t[i], first + t[i + 1], first + t[i + 2]);
   }
@@ -181,19 +183,20 @@ void FreezeSkinBehindGlasses(const Features& features, glm::vec2 eye, std::size_
   for (std::size_t i = 0; i < skin_count; ++i) {
     BakeWeights& weights = mesh.weights[i];
     const float up = weights.skin.domain.y - eye.y;
-    const glm::vec2 off((std::abs(weights.skin.domain.x) - eye.x) / lens.aside,
-                        up / (up > 0 ? lens.up : lens.down));
-    weights.skin.free *= lens.holds.Ramp(glm::length(off));
+    const glm::vec2 offset((std::abs(weights.skin.domain.x) - eye.x) / lens.aside,
+                           up / (up > 0 ? lens.up : lens.down));
+    weights.skin.free *= lens.holds.Ramp(glm::length(offset));
   }
 }
 
-void RemoveUnseenSkin(const PhotoHead& head, std::span<const CageTag> tags, MeshBuilder& mesh) {
+void RemoveUnseenSkin(const PhotoHead& photo_head, std::span<const CageTag> tags,
+                      MeshBuilder& mesh) {
   NostrilsToSkin(tags, mesh);
   for (auto& batch : mesh.batches) {
     if (batch.material != Material::kSkin) continue;
     const auto normal = Normals(batch.indices, mesh.position, mesh.position.size());
     for (const std::uint32_t v : batch.indices) {
-      mesh.opacity[v] = SeenSkin(head, mesh.position[v], normal[v]);
+      mesh.opacity[v] = SeenSkin(photo_head, mesh.position[v], normal[v]);
     }
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
@@ -206,21 +209,22 @@ void RemoveUnseenSkin(const PhotoHead& head, std::span<const CageTag> tags, Mesh
   }
 }
 
-void ApplyPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
+void ApplyPhoto(const PhotoHead& photo_head, const PhotoSkin& skin, glm::vec3 lip_inside,
                 HeadSurface& surface) {
   const std::size_t skin_count = skin.weights.size();
-  surface.textures.base_colour = head.atlas;
-  surface.portrait.saturation = head.saturation;
-  surface.portrait.eyes = head.eye_pictures;
+  surface.textures.base_colour = photo_head.atlas;
+  surface.portrait.saturation = photo_head.saturation;
+  surface.portrait.eyes = photo_head.eye_pictures;
   surface.textures.texcoord.resize(surface.uv.size());
   surface.textures.weight.resize(surface.uv.size());
   for (std::size_t i = 0; i < skin_count; ++i) {
-    surface.textures.texcoord[i] = glm::mix(head.skin_low, head.skin_high, surface.uv[i]);
+    surface.textures.texcoord[i] =
+        glm::mix(photo_head.skin_low, photo_head.skin_high, surface.uv[i]);
   }
-  for (std::size_t i = 0; i < head.sheet.size(); ++i) {
-    surface.textures.texcoord[skin_count + i] = head.sheet[i].texcoord;
+  for (std::size_t i = 0; i < photo_head.sheet.size(); ++i) {
+    surface.textures.texcoord[skin_count + i] = photo_head.sheet[i].texcoord;
   }
-  std::fill_n(surface.textures.weight.begin(), skin_count + head.sheet.size(), 1.0f);
+  std::fill_n(surface.textures.weight.begin(), skin_count + photo_head.sheet.size(), 1.0f);
   // The photo ends at the lips; the inside of the mouth is painted.
   for (const auto& part : surface.parts) {
     if (part.material != Material::kMouthInside) continue;
@@ -229,17 +233,18 @@ void ApplyPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_insi
   // Where paint begins, it blends from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {
     if (surface.textures.weight[i] <= 0) continue;
-    surface.albedo[i] = FromScreen(PhotoColour(*head.atlas, surface.textures.texcoord[i]));
+    surface.albedo[i] = FromScreen(PhotoColour(*photo_head.atlas, surface.textures.texcoord[i]));
     surface.openness[i] = 1;
   }
-  ThinLashes(head, surface);
-  RollLips(head, skin.tags, lip_inside, surface);
-  const PhotoMapping mapping{*head.atlas, surface.textures.texcoord, surface.textures.weight};
+  ThinLashes(photo_head, surface);
+  RollLips(photo_head, skin.tags, lip_inside, surface);
+  const PhotoMapping mapping{*photo_head.atlas, surface.textures.texcoord, surface.textures.weight};
   const FaceLight light = FitFaceLight(mapping, skin.open);
   surface.portrait.light = light.coefficients();
-  surface.portrait.relit = RelitShares(*head.features, skin);
+  surface.portrait.relit = RelitShares(*photo_head.features, skin);
   surface.portrait.relit.resize(surface.uv.size());
-  surface.portrait.shut_lids = PaintLids(mapping, skin, head.glasses, *head.features, light);
+  surface.portrait.shut_lids =
+      PaintLids(mapping, skin, photo_head.glasses, *photo_head.features, light);
   for (const ShutLid& lid : surface.portrait.shut_lids) surface.textures.weight[lid.vertex] = 1;
 }
 

@@ -14,10 +14,10 @@
 namespace fsm {
 
 /// Takes the colours of parts that the photo does not show from `head`.
-void CopyColours(const PhotoHead& head, Palette& palette);
+void CopyColours(const PhotoHead& photo_head, Palette& palette);
 
 /// Adds the sheet with hair, neck and clothes of a photo. It turns with the head as skin does.
-void AddPhotoSheet(const PhotoHead& head, MeshBuilder& mesh);
+void AddPhotoSheet(const PhotoHead& photo_head, MeshBuilder& mesh);
 
 /// Keeps the skin still where glasses rest, which the photo shows on the skin, or they would bend.
 /// `eye`: centre of the left eye at rest, (x, y) of the base identity.
@@ -34,11 +34,12 @@ float NeckFrontZ(float above_bottom_mm);
 /// is, and fades the skin beside it (MeshBuilder::opacity). The nostrils' lining becomes skin,
 /// since the photo shows how dark they are. `tags`: those of the skin's vertices, the first of the
 /// mesh.
-void RemoveUnseenSkin(const PhotoHead& head, std::span<const CageTag> tags, MeshBuilder& mesh);
+void RemoveUnseenSkin(const PhotoHead& photo_head, std::span<const CageTag> tags,
+                      MeshBuilder& mesh);
 
 /// Gives every vertex of skin and sheet its texture coordinate in the photo, and lids and lips
 /// their own paint. `lip_inside`: colour of lips that roll inward if `head` has none.
-void ApplyPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
+void ApplyPhoto(const PhotoHead& photo_head, const PhotoSkin& skin, glm::vec3 lip_inside,
                 HeadSurface& surface);
 
 }  // namespace fsm

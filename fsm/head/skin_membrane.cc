@@ -29,24 +29,25 @@ float UsualBrightness(std::span<const SkinSample> samples, float share, Which wh
 
 }  // namespace
 
-void DoubtOddSkin(std::span<SkinSample> samples, float usual_above) {
+void DownweightOutliers(std::span<SkinSample> samples, float usual_above) {
   // Spreads of the logarithm of brightness. Above the eye there are lashes and the brow's shade.
   constexpr float kSpreadAbove = 0.3f, kSpreadBelow = 0.6f;
   constexpr float kDarkest = 3;  // a socket, unlike lashes, is at most this many times darker
   constexpr float kOwn = 0.85f;  // weight of the brightness of the sample's own side
   const float usual =
-      UsualBrightness(samples, 0.5f, [](const SkinSample& s) { return s.known > 0; });
+      UsualBrightness(samples, 0.5f, [](const SkinSample& s) { return s.confidence > 0; });
   const auto mostly = [&](bool above) {
-    const float here = UsualBrightness(
-        samples, above ? usual_above : 0.5f,
-        [above](const SkinSample& s) { return s.known > 0 && s.near && s.above == above; });
+    const float here =
+        UsualBrightness(samples, above ? usual_above : 0.5f, [above](const SkinSample& s) {
+          return s.confidence > 0 && s.beside_lid && s.above == above;
+        });
     return std::pow(usual, 1 - kOwn) * std::pow(std::max(here, usual / kDarkest), kOwn);
   };
   const float above = mostly(true), below = mostly(false);
   for (SkinSample& s : samples) {
     const float odd = std::log(ScreenBrightness(s.screen) / (s.above ? above : below)) /
                       (s.above ? kSpreadAbove : kSpreadBelow);
-    s.known *= std::exp(-odd * odd);
+    s.confidence *= std::exp(-odd * odd);
   }
 }
 
@@ -55,8 +56,8 @@ glm::vec3 MeanBelow(std::span<const SkinSample> samples) {
   float weight = 1e-4f;
   for (const SkinSample& s : samples) {
     if (s.above) continue;
-    sum += s.known * s.screen;
-    weight += s.known;
+    sum += s.confidence * s.screen;
+    weight += s.confidence;
   }
   return sum / weight;
 }
@@ -67,8 +68,8 @@ SkinMembrane::SkinMembrane(std::span<const SkinSample> samples) {
   constexpr int kRounds = 300;
   glm::vec2 low(1e9f), high(-1e9f);
   for (const SkinSample& s : samples) {
-    low = glm::min(low, s.at);
-    high = glm::max(high, s.at);
+    low = glm::min(low, s.position);
+    high = glm::max(high, s.position);
   }
   low_ = low - kStep;
   width_ = static_cast<int>(std::min((high.x - low_.x) / kStep, kMax)) + 2;
@@ -76,8 +77,8 @@ SkinMembrane::SkinMembrane(std::span<const SkinSample> samples) {
   std::vector<glm::vec4> held(static_cast<std::size_t>(width_ * height_), glm::vec4(0));
   glm::vec4 all(0);
   for (const SkinSample& s : samples) {
-    const glm::ivec2 c(glm::round((s.at - low_) / kStep));
-    const glm::vec4 sample(s.known * s.screen, s.known);
+    const glm::ivec2 c(glm::round((s.position - low_) / kStep));
+    const glm::vec4 sample(s.confidence * s.screen, s.confidence);
     held[Cell(c.x, c.y)] += sample;
     all += sample;
   }

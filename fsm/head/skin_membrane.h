@@ -10,17 +10,17 @@ namespace fsm {
 
 /// What a photo shows at a place near an eye.
 struct SkinSample {
-  glm::vec2 at;      ///< on the face, millimetres
-  glm::vec3 screen;  ///< 0..1
-  bool above;        ///< above the eye rather than below
-  float known;       ///< confidence that it is skin, 0..1
-  bool near;         ///< close to the lid rather than to the brow
+  glm::vec2 position;  ///< on the face, millimetres
+  glm::vec3 screen;    ///< 0..1
+  bool above;          ///< above the eye rather than below
+  float confidence;    ///< that it is skin, 0..1
+  bool beside_lid;     ///< close to the lid rather than to the brow
 };
 
 /// Lowers the confidence of samples that are darker or brighter than most skin on their side of the
 /// eye: lashes, brows, rims of glasses, reflections. `usual_above`: the quantile of brightness that
 /// counts as skin near the eye above it; 0.5 if nothing is known.
-void DoubtOddSkin(std::span<SkinSample> samples, float usual_above);
+void DownweightOutliers(std::span<SkinSample> samples, float usual_above);
 
 /// Returns the mean screen colour of the skin below an eye.
 glm::vec3 MeanBelow(std::span<const SkinSample> samples);

@@ -35,8 +35,8 @@ class BrowShape {
     const float x = std::abs(at.x);
     const float within = std::clamp(x, middle_.begin_x(), middle_.end_x());
     const float high = brows_.thickness * std::max(half_(within), 1.0f) + 0.8f;
-    const float off = (at.y - Y(within, 0)) / high;
-    return brows_.density * std::exp(-off * off) * features_.brow_cover.inner.Ramp(x) *
+    const float offset = (at.y - Y(within, 0)) / high;
+    return brows_.density * std::exp(-offset * offset) * features_.brow_cover.inner.Ramp(x) *
            features_.brow_cover.outer.Ramp(x);
   }
 

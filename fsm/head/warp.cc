@@ -44,27 +44,29 @@ Warp::Warp(std::span<const WarpPoint> points, float smooth) {
     // The negative distance is positive definite beside an affine part, so that an addition to the
     // diagonal smooths.
     for (std::size_t j = 0; j < n; ++j) {
-      m[i][j] = -static_cast<double>(glm::distance(points[i].at, points[j].at));
+      m[i][j] = -static_cast<double>(glm::distance(points[i].position, points[j].position));
     }
     m[i][i] += static_cast<double>(smooth);
-    const double p[4] = {1, points[i].at.x, points[i].at.y, points[i].at.z};
+    const double p[4] = {1, points[i].position.x, points[i].position.y, points[i].position.z};
     for (std::size_t c = 0; c < 4; ++c) m[i][n + c] = m[n + c][i] = p[c];
-    for (int c = 0; c < 3; ++c) m[i][n + 4 + static_cast<std::size_t>(c)] = points[i].by[c];
+    for (int c = 0; c < 3; ++c)
+      m[i][n + 4 + static_cast<std::size_t>(c)] = points[i].displacement[c];
   }
   Solve(m);
   const auto solution = [&](std::size_t row) {
     return glm::vec3(m[row][n + 4], m[row][n + 5], m[row][n + 6]);
   };
   for (std::size_t i = 0; i < n; ++i) {
-    at_.push_back(points[i].at);
-    weight_.push_back(solution(i));
+    centres_.push_back(points[i].position);
+    weights_.push_back(solution(i));
   }
   for (std::size_t c = 0; c < 4; ++c) affine_[c] = solution(n + c);
 }
 
 glm::vec3 Warp::Motion(glm::vec3 p) const {
   glm::vec3 sum = affine_[0] + affine_[1] * p.x + affine_[2] * p.y + affine_[3] * p.z;
-  for (std::size_t i = 0; i < at_.size(); ++i) sum -= weight_[i] * glm::distance(p, at_[i]);
+  for (std::size_t i = 0; i < centres_.size(); ++i)
+    sum -= weights_[i] * glm::distance(p, centres_[i]);
   return sum;
 }
 

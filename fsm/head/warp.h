@@ -9,7 +9,7 @@ namespace fsm {
 
 /// A point of the base head and its displacement.
 struct WarpPoint {
-  glm::vec3 at, by;
+  glm::vec3 position, displacement;
 };
 
 /// A displacement field that moves given points almost to their targets and all others smoothly:
@@ -23,7 +23,7 @@ class Warp {
   glm::vec3 Motion(glm::vec3 p) const;
 
  private:
-  std::vector<glm::vec3> at_, weight_;
+  std::vector<glm::vec3> centres_, weights_;
   std::array<glm::vec3, 4> affine_{};  // constant term, then those of x, y and z
 };
 

@@ -142,8 +142,9 @@ class HeadBuilder {
       : file_(file), to_ours_(to_ours), mouth_y_(mouth_y) {
     model_.name = file.name;
     for (const glm::vec3& p : file.position) {
-      at_.push_back(to_ours(p));
-      if (!WithinReach(at_.back())) Refuse(file, "vertex " + std::to_string(at_.size() - 1));
+      positions_.push_back(to_ours(p));
+      if (!WithinReach(positions_.back()))
+        Refuse(file, "vertex " + std::to_string(positions_.size() - 1));
     }
   }
 
@@ -152,12 +153,12 @@ class HeadBuilder {
     model_.textures.base_colour = atlas_.Make();
     if (model_.textures.base_colour) LayDetails();
     model_.has_uv_seams = !file_.texcoord.empty();
-    for (const glm::vec3& p : at_) {
+    for (const glm::vec3& p : positions_) {
       // The neck bends below the chin, as that of the built-in heads.
       model_.Add(p, Bone::kSkin, BasePalette().skin, {}, NeckWeight(p.y));
     }
     model_.spring_rig = SpringsOfHead(file_.spring_rig, to_ours_);
-    eye_of_ = FindEyes(file_, at_, to_ours_, model_);
+    eye_of_ = FindEyes(file_, positions_, to_ours_, model_);
     for (const auto& part : file_.parts) AddPart(part);
     return std::move(model_);
   }
@@ -218,9 +219,9 @@ class HeadBuilder {
     std::vector<std::uint32_t> pieces;
     std::vector<Box> piece;
     if (look.above != look.below) {
-      pieces = Pieces(at_.size(), part.indices);
-      piece.resize(at_.size());
-      for (const std::uint32_t v : part.indices) piece[pieces[v]].Add(at_[v]);
+      pieces = Pieces(positions_.size(), part.indices);
+      piece.resize(positions_.size());
+      for (const std::uint32_t v : part.indices) piece[pieces[v]].Add(positions_[v]);
     }
     for (const std::uint32_t v : part.indices) {
       const bool above = !pieces.empty() && piece[pieces[v]].centre().y > mouth_y_;
@@ -259,7 +260,7 @@ class HeadBuilder {
   const ImportedHead& file_;
   const Similarity& to_ours_;
   float mouth_y_;
-  std::vector<glm::vec3> at_;
+  std::vector<glm::vec3> positions_;
   EyeOfVertex eye_of_;
   TextureAtlas atlas_;
   std::map<int, int> pbr_index_;  // file's index -> model's index of a material

@@ -14,22 +14,22 @@
 namespace fsm {
 namespace {
 
-constexpr std::array<const char*, 5> kLipOrLidNames{"plain", "upper_lip", "lower_lip", "upper_lid",
-                                                    "lower_lid"};
+constexpr std::array<const char*, 5> kFeatureNames{"plain", "upper_lip", "lower_lip", "upper_lid",
+                                                   "lower_lid"};
 constexpr std::size_t kMaxPairs = 2000;
 
 PointPair ReadPair(const TableRow& row) {
   if (row.key() != "point" || row.size() != 8) {
     row.Refuse("face NAME or point PART X Y Z X Y Z expected");
   }
-  const auto on = std::ranges::find(kLipOrLidNames, row.Word(1));
-  if (on == kLipOrLidNames.end())
+  const auto on = std::ranges::find(kFeatureNames, row.Word(1));
+  if (on == kFeatureNames.end())
     row.Refuse("plain, upper_lip, lower_lip, upper_lid or lower_lid expected");
   const glm::vec3 from = row.Vector(2), to = row.Vector(5);
   if (!WithinReach(from) || !WithinReach(to)) {
     row.Refuse("six numbers of at most 10000000 expected after the part");
   }
-  return {from, to, static_cast<LipOrLid>(on - kLipOrLidNames.begin())};
+  return {from, to, static_cast<FaceFeature>(on - kFeatureNames.begin())};
 }
 
 }  // namespace
@@ -61,8 +61,8 @@ std::string FormatHeadPoints(const HeadPoints& points) {
   for (const PointPair& pair : points.pairs) {
     const auto d = [](float v) { return static_cast<double>(v); };
     std::snprintf(line.data(), line.size(), "point %s %.3f %.3f %.3f  %.7g %.7g %.7g\n",
-                  kLipOrLidNames[static_cast<std::size_t>(pair.on)], d(pair.from.x), d(pair.from.y),
-                  d(pair.from.z), d(pair.to.x), d(pair.to.y), d(pair.to.z));
+                  kFeatureNames[static_cast<std::size_t>(pair.feature)], d(pair.from.x),
+                  d(pair.from.y), d(pair.from.z), d(pair.to.x), d(pair.to.y), d(pair.to.z));
     out += line.data();
   }
   return out;

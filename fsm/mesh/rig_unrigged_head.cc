@@ -40,10 +40,10 @@ std::vector<BallLid> LidsOf(const UnriggedHead& model) {
     for (const Side side : kSides) {
       const float radius = model.eyes[side].ball_radius;
       const glm::vec3 centre = model.eye_rig.centre[side];
-      const float far = glm::distance(model.mesh.position[i], centre);
-      if (far < radius - 0.5f || far > radius + kReach) continue;
+      const float distance = glm::distance(model.mesh.position[i], centre);
+      if (distance < radius - 0.5f || distance > radius + kReach) continue;
       if (model.mesh.position[i].z < centre.z) continue;
-      lids.push_back({i, side, std::min(far, radius + kThickness)});
+      lids.push_back({i, side, std::min(distance, radius + kThickness)});
     }
   }
   return lids;
@@ -132,7 +132,7 @@ void LightMouth(RigData& rig, HeadSurface& surface) {
 
 RigData MakeStillSkin() {
   RigData rig;
-  rig.unit_effects = BuiltInUnits();
+  rig.units = BuiltInUnits();
   return rig;
 }
 

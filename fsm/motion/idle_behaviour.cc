@@ -63,9 +63,9 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
       const double slow =
           InMs(t) / move.period_ms + gestures_.wander.axis_phase * static_cast<double>(axis);
       const double fast = slow * gestures_.wander.frequency_ratio;
-      const double way = gestures_.wander.slow_share * Wander(2 * axis, slow) +
-                         gestures_.wander.fast_share * Wander(2 * axis + 1, fast);
-      out[axis] += static_cast<float>(run.weight * way * amplitude[axis]);
+      const double drift = gestures_.wander.slow_share * Wander(2 * axis, slow) +
+                           gestures_.wander.fast_share * Wander(2 * axis + 1, fast);
+      out[axis] += static_cast<float>(run.weight * drift * amplitude[axis]);
     }
   }
 }

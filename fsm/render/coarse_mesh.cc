@@ -178,10 +178,10 @@ class PartDecimator {
       weights.x = 1 - weights.y - weights.z;
       weights = glm::max(weights, 0.0F);
       weights /= weights.x + weights.y + weights.z;
-      const float off = features_.Difference(
+      const float difference = features_.Difference(
           vertex, {corners[0]->number, corners[1]->number, corners[2]->number}, weights, best);
-      if (off > best) continue;
-      best = off;
+      if (difference > best) continue;
+      best = difference;
       where = triangle;
       found = true;
     }

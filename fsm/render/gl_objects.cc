@@ -70,10 +70,10 @@ void GlProgram::Link(const char* name, std::initializer_list<GLuint> shaders) {
 std::optional<GLint> GlProgram::Changed(const char* name, std::span<const std::byte> value) const {
   const auto [found, is_new] = uniforms_.try_emplace(name);
   Uniform& uniform = found->second;
-  if (is_new) uniform.at = gl_.GetUniformLocation(id_, name);
-  if (uniform.at < 0 || std::ranges::equal(uniform.value, value)) return {};
+  if (is_new) uniform.location = gl_.GetUniformLocation(id_, name);
+  if (uniform.location < 0 || std::ranges::equal(uniform.value, value)) return {};
   uniform.value.assign(value.begin(), value.end());
-  return uniform.at;
+  return uniform.location;
 }
 
 GlTarget::GlTarget(const GlFunctions& gl, int width, int height)

@@ -54,8 +54,8 @@ class GlProgram {
   /// REQUIRES for all: the program is in use, `name` is a string literal.
   void Set(const char* name, float value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, GLint value) const {
-    if (const auto at = Changed(name, std::as_bytes(std::span(&value, 1)))) {
-      gl_.Uniform1i(*at, value);
+    if (const auto location = Changed(name, std::as_bytes(std::span(&value, 1)))) {
+      gl_.Uniform1i(*location, value);
     }
   }
   void Set(const char* name, bool value) const { Set(name, GLint{value}); }
@@ -63,35 +63,36 @@ class GlProgram {
   void Set(const char* name, const glm::vec3& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, const glm::vec4& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, const glm::mat3& value) const {
-    if (const auto at = Changed(name, std::as_bytes(std::span(&value, 1)))) {
-      gl_.UniformMatrix3fv(*at, 1, GL_FALSE, &value[0][0]);
+    if (const auto location = Changed(name, std::as_bytes(std::span(&value, 1)))) {
+      gl_.UniformMatrix3fv(*location, 1, GL_FALSE, &value[0][0]);
     }
   }
   void Set(const char* name, const glm::mat4& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, std::span<const float> values) const {
-    if (const auto at = Changed(name, std::as_bytes(values))) {
-      gl_.Uniform1fv(*at, static_cast<GLsizei>(values.size()), values.data());
+    if (const auto location = Changed(name, std::as_bytes(values))) {
+      gl_.Uniform1fv(*location, static_cast<GLsizei>(values.size()), values.data());
     }
   }
   void Set(const char* name, std::span<const glm::vec3> values) const {
-    if (const auto at = Changed(name, std::as_bytes(values))) {
-      gl_.Uniform3fv(*at, static_cast<GLsizei>(values.size()), &values[0][0]);
+    if (const auto location = Changed(name, std::as_bytes(values))) {
+      gl_.Uniform3fv(*location, static_cast<GLsizei>(values.size()), &values[0][0]);
     }
   }
   void Set(const char* name, std::span<const glm::vec4> values) const {
-    if (const auto at = Changed(name, std::as_bytes(values))) {
-      gl_.Uniform4fv(*at, static_cast<GLsizei>(values.size()), &values[0][0]);
+    if (const auto location = Changed(name, std::as_bytes(values))) {
+      gl_.Uniform4fv(*location, static_cast<GLsizei>(values.size()), &values[0][0]);
     }
   }
   void Set(const char* name, std::span<const glm::mat4> values) const {
-    if (const auto at = Changed(name, std::as_bytes(values))) {
-      gl_.UniformMatrix4fv(*at, static_cast<GLsizei>(values.size()), GL_FALSE, &values[0][0][0]);
+    if (const auto location = Changed(name, std::as_bytes(values))) {
+      gl_.UniformMatrix4fv(*location, static_cast<GLsizei>(values.size()), GL_FALSE,
+                           &values[0][0][0]);
     }
   }
 
  private:
   struct Uniform {
-    GLint at;  ///< location; -1: the program has no such uniform
+    GLint location;  ///< -1: the program has no such uniform
     std::vector<std::byte> value;
   };
   /// Returns the location of a uniform if it exists and has another value: this check is far

@@ -66,10 +66,10 @@ void CreaseRelief::AddBridge(const glm::vec3& p, float side, float& height) cons
   const auto& lines = skin_.bridge_lines;
   if (side >= 16 || p.y >= landmarks_.nasion.y - 2) return;
   for (const float below : ListOf(lines.below)) {
-    const float off =
+    const float offset =
         p.y - (landmarks_.nasion.y - below) + lines.slant * (side - 6) - lines.bend * side * side;
     height +=
-        lines.depth * Furrow(off, lines.width) * lines.begin.Ramp(side) * lines.end.Ramp(side);
+        lines.depth * Furrow(offset, lines.width) * lines.begin.Ramp(side) * lines.end.Ramp(side);
   }
 }
 
@@ -81,11 +81,11 @@ void CreaseRelief::AddCrowsFeet(const glm::vec3& p, float side, float& height) c
   if (out.x <= -2) return;
   for (const float angle : ListOf(lines.directions)) {
     const glm::vec2 along(std::cos(angle), std::sin(angle));
-    const float far = glm::dot(out, along);
-    const float off = out.y * along.x - out.x * along.y;
-    const float bend = lines.bend * far * far * (angle > 0 ? -1.0F : 1.0F);
-    height +=
-        lines.depth * Furrow(off + bend, lines.width) * lines.begin.Ramp(far) * lines.end.Ramp(far);
+    const float along_mm = glm::dot(out, along);
+    const float across_mm = out.y * along.x - out.x * along.y;
+    const float bend = lines.bend * along_mm * along_mm * (angle > 0 ? -1.0F : 1.0F);
+    height += lines.depth * Furrow(across_mm + bend, lines.width) * lines.begin.Ramp(along_mm) *
+              lines.end.Ramp(along_mm);
   }
 }
 

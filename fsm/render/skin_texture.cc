@@ -187,8 +187,8 @@ void Stamp(float x, float y, float radius, Paint paint) {
     for (int tx = std::max(cx - reach, 0); tx <= std::min(cx + reach, kSide - 1); ++tx) {
       const float dx = static_cast<float>(tx) + 0.5F - x;
       const float dy = static_cast<float>(ty) + 0.5F - y;
-      const float far = (dx * dx + dy * dy) / (radius * radius);
-      if (far < 1) paint(Texel(tx, ty), (1 - far) * (1 - far));
+      const float distance2 = (dx * dx + dy * dy) / (radius * radius);
+      if (distance2 < 1) paint(Texel(tx, ty), (1 - distance2) * (1 - distance2));
     }
   }
 }

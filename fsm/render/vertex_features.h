@@ -30,9 +30,9 @@ class VertexFeatures {
     const float weight = importance_[vertex] * importance_[vertex];
     float worst = 0;
     for (std::size_t k = 0; k < count_ && worst <= max; ++k) {
-      const glm::vec3 off = own[k] - weights.x * between[0][k] - weights.y * between[1][k] -
-                            weights.z * between[2][k];
-      worst = std::max(worst, weight * glm::dot(off, off));
+      const glm::vec3 difference = own[k] - weights.x * between[0][k] - weights.y * between[1][k] -
+                                   weights.z * between[2][k];
+      worst = std::max(worst, weight * glm::dot(difference, difference));
     }
     return worst;
   }

@@ -17,7 +17,7 @@ struct Pose;
 /// How far a channel displaces a vertex at full strength, in millimetres.
 struct Displacement {
   std::uint32_t vertex;
-  glm::vec3 by;
+  glm::vec3 offset;
 };
 
 /// Names a value of a state that drives the face.

@@ -15,8 +15,8 @@ struct LidRig {
   struct Vertex {
     std::uint32_t vertex = 0;
     Side side{};
-    step::LidPoint at{};
-    bool proper = false;  ///< true for the lid itself, false for the fold behind it
+    step::LidPoint point{};
+    bool is_lid = false;  ///< true for the lid itself, false for the fold behind it
   };
   std::vector<Vertex> vertices;
   Sided<EyeTransform> eyes;

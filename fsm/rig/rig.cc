@@ -76,7 +76,7 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
 void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
   out.creases = {};
   if (data_.creases.at_rest) {
-    out.creases = data_.unit_effects.CreaseDepths(pose.au, *data_.creases.at_rest);
+    out.creases = data_.units.CreaseDepths(pose.au, *data_.creases.at_rest);
     for (Sided<float>& depth : out.creases) {
       for (const Side side : kSides) depth[side] *= data_.creases.depth;
     }
@@ -85,7 +85,7 @@ void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
 }
 
 void Rig::FindInputs(const FaceState& state, RigInputs& inputs) const {
-  inputs.pose = MakePose(state, data_.unit_effects);
+  inputs.pose = MakePose(state, data_.units);
   inputs.state = StateOf(data_, inputs.pose);
   inputs.strengths.clear();
   drives_.FindStrengths(data_.channels, state, inputs.pose, inputs.drive_values, inputs.strengths);
@@ -110,12 +110,12 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
 
 Rig Rig::WithUnits(const UnitTable& units) const {
   RigData data = data_;
-  data.unit_effects = units;
-  if (data.asymmetry_seed) data.unit_effects.MakeAsymmetric(*data.asymmetry_seed);
+  data.units = units;
+  if (data.asymmetry_seed) data.units.MakeAsymmetric(*data.asymmetry_seed);
   if (data.units_by_place) {
     std::erase_if(data.channels,
                   [](const Channel& channel) { return channel.IsLedBy(Drive::Kind::kUnit); });
-    std::ranges::move(UnitChannels(data.unit_effects, data.bone, data.weights),
+    std::ranges::move(UnitChannels(data.units, data.bone, data.weights),
                       std::back_inserter(data.channels));
   }
   return Rig(std::move(data));

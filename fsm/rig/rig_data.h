@@ -113,8 +113,7 @@ struct RigData {
   std::vector<Bone> bone;                    ///< per vertex
   std::vector<SkinWeights> weights;          ///< per vertex
   MouthLandmarks mouth;
-  UnitTable
-      unit_effects;  ///< how action units combine, and their effects other than displacing skin
+  UnitTable units;                    ///< what each action unit does, and how units combine
   std::optional<int> asymmetry_seed;  ///< for UnitTable::MakeAsymmetric; none: both sides alike
   /// Whether UnitChannels computes the displacements of the action units from `units` and
   /// `weights`; otherwise they are the head's own.

@@ -18,7 +18,8 @@ void ApplyChannels(const RigData& data, const MovedVertices&, StepWork& work) {
   for (std::size_t k = 0; k < data.channels.size(); ++k) {
     const float strength = work.strengths[k];
     if (strength == 0) continue;
-    for (const Displacement& d : data.channels[k].moves) work.position[d.vertex] += strength * d.by;
+    for (const Displacement& d : data.channels[k].moves)
+      work.position[d.vertex] += strength * d.offset;
   }
 }
 
@@ -62,7 +63,7 @@ void PackChannels(const RigData& data, const char* kernel, KernelRecords& out) {
   VertexLists<step::ChannelEntry> lists(data.rest.size());
   for (std::uint32_t k = 0; k < data.channels.size(); ++k) {
     for (const Displacement& move : data.channels[k].moves)
-      lists[move.vertex].push_back({k, PointAt(move.by)});
+      lists[move.vertex].push_back({k, PointAt(move.offset)});
   }
   lists.AddTo(out, kernel);
 }
@@ -71,8 +72,8 @@ void ApplyLids(const RigData& data, const MovedVertices&, StepWork& work) {
   for (const LidRig::Vertex& lid : data.lids.vertices) {
     const step::Eye& eye = work.state.eyes[static_cast<std::size_t>(lid.side)];
     glm::vec3& p = work.position[lid.vertex];
-    p = step::WithLids(lid.at, eye, p);
-    if (lid.proper) p = step::OverCornea(eye, p);
+    p = step::WithLids(lid.point, eye, p);
+    if (lid.is_lid) p = step::OverCornea(eye, p);
   }
 }
 
@@ -84,7 +85,7 @@ void PackLids(const RigData& data, const char* kernel, KernelRecords& out) {
   std::vector<step::LidRecord> records;
   for (const LidRig::Vertex& lid : data.lids.vertices) {
     records.push_back(
-        {lid.vertex, static_cast<std::uint32_t>(lid.side), lid.at, lid.proper ? 1U : 0U});
+        {lid.vertex, static_cast<std::uint32_t>(lid.side), lid.point, lid.is_lid ? 1U : 0U});
   }
   out.Add(kernel, records);
 }

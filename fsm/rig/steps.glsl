@@ -337,12 +337,12 @@ struct RestRecord {
 };
 struct ChannelEntry {
   uint channel;
-  Point by;
+  Point offset;
 };
 struct LidRecord {
   uint vertex, side;
-  LidPoint at;
-  uint proper;  // 0 or 1
+  LidPoint point;
+  uint is_lid;  // 0 or 1
 };
 struct BallLidRecord {
   uint vertex, side;

@@ -27,10 +27,10 @@ inline ToothArch Moved(ToothArch arch, const TeethTransform& to) {
 
 /// Returns how steeply the arch (step::ArchZ) falls back at `x`, per millimetre outward.
 inline float ArchSlope(const ToothArch& arch, float x) {
-  const float off = x - arch.middle_x;
-  const float t = (off / arch.half_width) * (off / arch.half_width);
+  const float offset = x - arch.middle_x;
+  const float t = (offset / arch.half_width) * (offset / arch.half_width);
   const float steep = 2 * step::kArchSquare + 4 * step::kArchFourth * t;
-  return arch.depth * steep * off / (arch.half_width * arch.half_width) - arch.slope;
+  return arch.depth * steep * offset / (arch.half_width * arch.half_width) - arch.slope;
 }
 
 }  // namespace fsm

@@ -33,7 +33,7 @@ UnitTable::Field ReadField(const TableRow& row) {
   constexpr float kFace = 300, kMax = 100;  // millimetres
   UnitTable::Field field{};
   field.unit = ReadUnit(row, 1);
-  field.at = {row.Within(2, -kFace, kFace), row.Within(3, -kFace, kFace)};
+  field.centre = {row.Within(2, -kFace, kFace), row.Within(3, -kFace, kFace)};
   field.radius = {row.Within(4, -kFace, kFace), row.Within(5, -kFace, kFace)};
   if (field.radius.x <= 0 || field.radius.y <= 0) row.Refuse("a radius must be positive");
   const std::string& lip = row.Word(6);
@@ -44,20 +44,21 @@ UnitTable::Field ReadField(const TableRow& row) {
   } else if (lip != "both") {
     row.Refuse("'" + lip + "' found where above, below or both was expected");
   }
-  field.by = {row.Within(7, -kMax, kMax), row.Within(8, -kMax, kMax), row.Within(9, -kMax, kMax)};
+  field.displacement = {row.Within(7, -kMax, kMax), row.Within(8, -kMax, kMax),
+                        row.Within(9, -kMax, kMax)};
   row.EndsAt(10);
   return field;
 }
 
 // Each calls `v` with the numbers of an effect, in their order in a row, and the limits on their
 // absolute values.
-void NumbersOf(LidEffect& lid, const auto& v) { v(lid.upper_mm, 20), v(lid.lower_mm, 20); }
-void NumbersOf(CloseEffect& close, const auto& v) { v(close.part, 1); }
-void NumbersOf(JawEffect& jaw, const auto& v) { v(jaw.degrees, 60), v(jaw.slide_mm, 30); }
-void NumbersOf(SwayEffect& sway, const auto& v) { v(sway.mm, 30); }
-void NumbersOf(SealEffect& seal, const auto& v) { v(seal.part, 1); }
-void NumbersOf(TongueEffect& tongue, const auto& v) { v(tongue.raise, 1), v(tongue.out_mm, 60); }
-void NumbersOf(CreaseEffect& crease, const auto& v) {
+void VisitNumbers(LidEffect& lid, const auto& v) { v(lid.upper_mm, 20), v(lid.lower_mm, 20); }
+void VisitNumbers(CloseEffect& close, const auto& v) { v(close.part, 1); }
+void VisitNumbers(JawEffect& jaw, const auto& v) { v(jaw.degrees, 60), v(jaw.slide_mm, 30); }
+void VisitNumbers(SwayEffect& sway, const auto& v) { v(sway.mm, 30); }
+void VisitNumbers(SealEffect& seal, const auto& v) { v(seal.part, 1); }
+void VisitNumbers(TongueEffect& tongue, const auto& v) { v(tongue.raise, 1), v(tongue.out_mm, 60); }
+void VisitNumbers(CreaseEffect& crease, const auto& v) {
   for (float& depth : crease.depth) v(depth, 1);
 }
 
@@ -65,7 +66,7 @@ template <typename Effect>
 UnitEffect ReadEffect(const TableRow& row) {
   Effect effect{};
   std::size_t index = 2;
-  NumbersOf(effect, [&](float& n, float limit) { n = row.Within(index++, -limit, limit); });
+  VisitNumbers(effect, [&](float& n, float limit) { n = row.Within(index++, -limit, limit); });
   row.EndsAt(index);
   return effect;
 }
@@ -176,14 +177,16 @@ std::string UnitTable::Text() const {
   };
   const auto number = [](int unit) { return static_cast<float>(unit); };
   for (const Field& field : fields_) {
-    row("field", {number(field.unit), field.at.x, field.at.y, field.radius.x, field.radius.y});
+    row("field",
+        {number(field.unit), field.centre.x, field.centre.y, field.radius.x, field.radius.y});
     text += !field.lip ? " both" : *field.lip == Lip::kUpper ? " above" : " below";
-    for (int k = 0; k < 3; ++k) text += Digits(field.by[k]);
+    for (int k = 0; k < 3; ++k) text += Digits(field.displacement[k]);
   }
   for (const Effect& effect : effects_) {
-    row(kEffectRows[effect.what.index()].key, {number(effect.unit)});
-    std::visit([&text](auto what) { NumbersOf(what, [&](float n, float) { text += Digits(n); }); },
-               effect.what);
+    row(kEffectRows[effect.effect.index()].key, {number(effect.unit)});
+    std::visit(
+        [&text](auto what) { VisitNumbers(what, [&](float n, float) { text += Digits(n); }); },
+        effect.effect);
   }
   for (const Rule& rule : rules_) {
     const RuleRow& kind = kRuleRows[static_cast<std::size_t>(rule.kind)];
@@ -252,25 +255,25 @@ UnitEffects UnitTable::Effects(const Sided<UnitValues>& au) const {
 
 glm::vec3 UnitTable::FieldDisplacement(const Field& field, const SkinWeights& weights, Side side) {
   const float x = SignOf(side) * weights.domain.x;
-  if (std::abs(weights.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
+  if (std::abs(weights.domain.y - field.centre.y) >= field.radius.y) return glm::vec3(0);
   // Both sides act at the median, half each, so that left and right add up to the whole.
   const float own_side = LeftShareAt(x);
   if (own_side <= 0) return glm::vec3(0);
   float weight = 0;
   // A field that reaches over the median overlaps its mirror image; the stronger one counts.
   for (const float image : {1.0f, -1.0f}) {
-    const float dx = (x - image * field.at.x) / field.radius.x;
-    const float dy = (weights.domain.y - field.at.y) / field.radius.y;
+    const float dx = (x - image * field.centre.x) / field.radius.x;
+    const float dy = (weights.domain.y - field.centre.y) / field.radius.y;
     const float d2 = dx * dx + dy * dy;
     if (d2 < 1) weight = std::max(weight, (1 - d2) * (1 - d2));
   }
   if (field.lip == Lip::kUpper) weight *= weights.above_mouth;
   if (field.lip == Lip::kLower) weight *= 1 - weights.above_mouth;
   weight *= own_side * weights.free;
-  glm::vec3 by = field.by;
+  glm::vec3 displacement = field.displacement;
   // The sideways component changes sign smoothly at the median, so that the skin does not tear.
-  by.x *= std::clamp(x / kSidewaysMeetMm, -1.0f, 1.0f) * SignOf(side);
-  return weight * by;
+  displacement.x *= std::clamp(x / kSidewaysMeetMm, -1.0f, 1.0f) * SignOf(side);
+  return weight * displacement;
 }
 
 float LeftShareAt(float x_mm) { return SmoothStep(-7, 7, x_mm); }

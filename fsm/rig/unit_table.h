@@ -64,9 +64,9 @@ class UnitTable {
  public:
   struct Field {
     int unit;
-    glm::vec2 at, radius;
+    glm::vec2 centre, radius;
     std::optional<Lip> lip;  ///< the lip whose side of the mouth moves; none: both
-    glm::vec3 by;
+    glm::vec3 displacement;
   };
 
   /// Makes a table without units.
@@ -111,7 +111,7 @@ class UnitTable {
   };
   struct Effect {
     int unit;
-    UnitEffect what;
+    UnitEffect effect;
   };
   /// Extra strength per side as a fraction; 0.03 = 3 % stronger.
   Sided<UnitValues> lean_;

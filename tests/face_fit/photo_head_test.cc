@@ -23,22 +23,23 @@ TEST(WarpTest, GoesThroughItsPointsUnlessItSmooths) {
   const Warp smooth(kPoints, 30);
   float off = 0;
   for (const auto& point : kPoints) {
-    EXPECT_LT(glm::distance(exact.Motion(point.at), point.by), 1e-3F);
-    off += glm::distance(smooth.Motion(point.at), point.by);
+    EXPECT_LT(glm::distance(exact.Motion(point.position), point.displacement), 1e-3F);
+    off += glm::distance(smooth.Motion(point.position), point.displacement);
   }
   EXPECT_GT(off, 0.1F);
 }
 
 TEST(WarpTest, KeepsAnAffineMotionWhole) {
   std::vector<WarpPoint> points = kPoints;
-  for (auto& p : points) p.by = glm::vec3(1 + 0.1F * p.at.x, 0.2F * p.at.y, -0.1F * p.at.z);
+  for (auto& p : points)
+    p.displacement = glm::vec3(1 + 0.1F * p.position.x, 0.2F * p.position.y, -0.1F * p.position.z);
   const Warp warp(points, 2);
   EXPECT_LT(glm::distance(warp.Motion({100, -40, 10}), glm::vec3(11, -8, -1)), 1e-2F);
 }
 
 TEST(WarpTest, RefusesPointsOfOnePlane) {
   std::vector<WarpPoint> flat = kPoints;
-  for (auto& p : flat) p.at.z = 0;
+  for (auto& p : flat) p.position.z = 0;
   EXPECT_THROW(Warp(flat, 0), std::runtime_error);
   EXPECT_THROW(Warp({}, 0), std::runtime_error);
 }
@@ -73,7 +74,7 @@ TEST(PhotoHeadTest, ComesBackAsItWasWritten) {
   EXPECT_EQ(back.eye_pictures->left.iris, set.eye_pictures->left.iris);
   EXPECT_EQ(back.eye_pictures->right.ball, set.eye_pictures->right.ball);
   ASSERT_EQ(back.points.size(), set.points.size());
-  EXPECT_EQ(back.points[5].by, set.points[5].by);
+  EXPECT_EQ(back.points[5].displacement, set.points[5].displacement);
   EXPECT_EQ(back.smooth, set.smooth);
   EXPECT_EQ(back.sheet[3].texcoord, set.sheet[3].texcoord);
   EXPECT_EQ(back.sheet_triangles, set.sheet_triangles);
@@ -97,7 +98,7 @@ TEST(PhotoHeadTest, DamageIsReportedWithItsLine) {
 TEST(PhotoHeadTest, EachEyeSitsAndOpensAsTheFaceSays) {
   PhotoHead set;
   set.points = kPoints;
-  for (auto& point : set.points) point.by = glm::vec3(0);
+  for (auto& point : set.points) point.displacement = glm::vec3(0);
   set.atlas = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   set.eyes.emplace();
   const auto plain = MakeHead(set);
@@ -131,7 +132,7 @@ TEST(PhotoHeadTest, EachEyeSitsAndOpensAsTheFaceSays) {
 TEST(PhotoHeadTest, LidsGiveUpThePhotoAsTheyShut) {
   PhotoHead set;
   set.points = kPoints;
-  for (auto& point : set.points) point.by = glm::vec3(0);
+  for (auto& point : set.points) point.displacement = glm::vec3(0);
   set.atlas = std::make_shared<Image>(Image{1, 1, {200, 150, 100, 255}});
   const auto head = MakeHead(set);
   const auto& lids = head->surface().portrait.shut_lids;
@@ -149,7 +150,7 @@ TEST(PhotoHeadTest, LidsGiveUpThePhotoAsTheyShut) {
 int ColourOfTheMouth(float saturation) {
   PhotoHead set;
   set.points = kPoints;
-  for (auto& point : set.points) point.by = glm::vec3(0);
+  for (auto& point : set.points) point.displacement = glm::vec3(0);
   set.atlas = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   set.saturation = saturation;
   const auto head = MakeHead(set);
@@ -238,7 +239,7 @@ TEST(PhotoHeadTest, AGreyPhotoHasAGreyMouth) {
 TEST(PhotoHeadTest, TheSkinBehindGlassesStaysWhenBrowsAndCheeksMove) {
   PhotoHead set;
   set.points = kPoints;
-  for (auto& point : set.points) point.by = glm::vec3(0);
+  for (auto& point : set.points) point.displacement = glm::vec3(0);
   set.atlas = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   const auto moved = [&set](glm::vec2 from_eye) {
     const auto head = MakeHead(set);
@@ -282,7 +283,7 @@ TEST(PhotoHeadTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
   }
   PhotoHead set;
   set.points = kPoints;
-  for (auto& point : set.points) point.by = glm::vec3(0);
+  for (auto& point : set.points) point.displacement = glm::vec3(0);
   set.atlas = std::make_shared<Image>(photo);
   set.skin_low = {0.1F, 0.9F};
   set.skin_high = {0.9F, 0.6F};

@@ -112,7 +112,7 @@ TEST(AssetFileTest, CreasesAtRestAreFourAsInFilesThatThereAre) {
 
 TEST(AssetFileTest, TheUnitsTableStandsInItAsText) {
   const auto head = MakeHead("galatea");
-  const std::string text = head->rig().data().unit_effects.Text();
+  const std::string text = head->rig().data().units.Text();
   EXPECT_NE(text.find("\nlid 5 "), std::string::npos);
   EXPECT_EQ(UnitTable(Table("units", text)).Text(), text);
 }

@@ -90,7 +90,7 @@ TEST(GltfPlaceTest, ShapesOfShortsWithOneVertexNamedMoveThatVertex) {
   ASSERT_EQ(file.shapes.size(), 1U);
   ASSERT_EQ(file.shapes[0].moves.size(), 1U);
   EXPECT_EQ(file.shapes[0].moves[0].vertex, 2U);
-  EXPECT_NEAR(file.shapes[0].moves[0].by.y, -1, 1e-3F);
+  EXPECT_NEAR(file.shapes[0].moves[0].offset.y, -1, 1e-3F);
   ExpectPlace(file.position[2], {0, 2, 0});
 }
 
@@ -245,7 +245,7 @@ TEST(VrmTest, OldAvatarsAreTurnedToTheViewerWithBonesGazeAndExpressions) {
   ASSERT_EQ(file.shapes.size(), 6U);
   EXPECT_EQ(file.shapes[4].name, "vrma");
   ASSERT_EQ(file.shapes[4].moves.size(), 2U);
-  EXPECT_NEAR(file.shapes[4].moves[0].by.y, -0.005F, 1e-6F);
+  EXPECT_NEAR(file.shapes[4].moves[0].offset.y, -0.005F, 1e-6F);
   EXPECT_EQ(file.shapes[5].name, "vrmSurprised");
 }
 
@@ -523,7 +523,7 @@ std::shared_ptr<const Head> FallingBall() {
     rig.mouth = {.seam = {{count, count + 1}}, .corners = {{count, count}}, .incisors = {}};
     fall.moves.push_back({count + 1, {0, -10, 0}});
     rig.channels = {fall};
-    rig.unit_effects = BuiltInUnits();
+    rig.units = BuiltInUnits();
     for (const std::uint16_t unit : std::initializer_list<std::uint16_t>{1, 2, 4}) {
       rig.channels.push_back(channel(unit));
       rig.channels.back().moves = rises;

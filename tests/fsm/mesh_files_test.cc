@@ -18,8 +18,8 @@ TEST(PntFileTest, PlacesAreFoundByGroupAndNumberWhateverEndsTheLines) {
     const auto file =
         ParsePnt("f.pnt", "#3" + end + "  1   4  17  0.5 -1 2e-1" + end + "2 4 18 0 0 0" + end);
     ASSERT_TRUE(file) << file.error().text;
-    ASSERT_EQ(file->at.size(), 2U);
-    EXPECT_EQ(file->at[file->index.at({4, 17})], glm::vec3(0.5F, -1, 0.2F));
+    ASSERT_EQ(file->positions.size(), 2U);
+    EXPECT_EQ(file->positions[file->index.at({4, 17})], glm::vec3(0.5F, -1, 0.2F));
   }
 }
 

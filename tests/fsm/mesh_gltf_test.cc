@@ -58,7 +58,7 @@ TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
     const float far = glm::distance(1000.0F * file->position[delta.vertex], chin);
     if (far < nearest) {
       nearest = far;
-      lowest = delta.by;
+      lowest = delta.offset;
     }
   }
   EXPECT_LT(nearest, 0.01F);

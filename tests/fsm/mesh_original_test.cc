@@ -34,9 +34,9 @@ OriginalFace SmallFace() {
   face.name = "small";
   PntFile& file = face.wireframe;
   const auto add = [&file](PointName name, glm::vec3 at) {
-    if (!file.index.emplace(name, file.at.size()).second) return;
+    if (!file.index.emplace(name, file.positions.size()).second) return;
     file.names.push_back(name);
-    file.at.push_back(at);
+    file.positions.push_back(at);
   };
   for (std::size_t i = 0; i < kLipRim.size(); ++i) {
     const float x = 0.02F * (i <= 10 ? static_cast<float>(i) - 5 : 15 - static_cast<float>(i));
@@ -51,13 +51,13 @@ OriginalFace SmallFace() {
     }
   }
   for (const auto& [name, point] : kNamedPoints) add(point, {0, 0, 0.9F});
-  file.at[file.index.at(kChin)] = {0, -0.6F, 0.7F};
+  file.positions[file.index.at(kChin)] = {0, -0.6F, 0.7F};
   face.standard = face.wireframe;
   face.link.triangles.push_back({1, {PointName{1, 36}, {1, 11}, {3, 25}}});
   face.link.triangles.push_back({1, {PointName{1, 37}, kChin, {1, 15}}});
   face.link.triangles.push_back({25, {PointName{1, 37}, kChin, {1, 15}}});  // not drawn
   face.picture = Grey();
-  face.units.assign(kOriginalUnits, std::vector<glm::vec3>(file.at.size(), glm::vec3(0)));
+  face.units.assign(kOriginalUnits, std::vector<glm::vec3>(file.positions.size(), glm::vec3(0)));
   face.mouth_units.assign(kMouthParameters, face.units[0]);
   face.visemes.assign(kOriginalVisemes, face.units[0]);
   return face;
@@ -168,8 +168,8 @@ TEST(SmallOriginalFaceTest, AMouthSetByHandShowsTheMouthUnitOfThatNumber) {
 TEST(SmallOriginalFaceTest, WhatUnitsLeaveOfAnExpressionComesByItsChannel) {
   OriginalFace face = SmallFace();
   const auto nose = face.wireframe.index.at({3, 15});
-  face.expression_residuals.assign(4,
-                                   std::vector<glm::vec3>(face.wireframe.at.size(), glm::vec3(0)));
+  face.expression_residuals.assign(
+      4, std::vector<glm::vec3>(face.wireframe.positions.size(), glm::vec3(0)));
   face.expression_residuals[3][nose] = {0, 0.02F, 0};
   const auto head = HeadOf(face);
   HeadVertices rest, moved;
@@ -285,8 +285,8 @@ TEST_F(StandardFaceTest, TeethFillTheMouthAsInTheOriginalAndStayWithinNarrowJaws
 TEST_F(StandardFaceTest, NoToothComesThroughASmallerChin) {
   // As woman01: her chin is nearer to her mouth, and her face is flatter.
   OriginalFace face = face_;
-  const float mouth = face.wireframe.at[face.wireframe.index.at(kLipMiddle)].y;
-  for (glm::vec3& p : face.wireframe.at) {
+  const float mouth = face.wireframe.positions[face.wireframe.index.at(kLipMiddle)].y;
+  for (glm::vec3& p : face.wireframe.positions) {
     if (p.y < mouth) p.y = mouth + 0.72F * (p.y - mouth);
     p.z = 0.66F + 0.75F * (p.z - 0.66F);
   }
@@ -326,13 +326,13 @@ TEST_F(StandardFaceTest, NoToothComesThroughASmallerChin) {
 TEST_F(StandardFaceTest, ExpressionsAreThoseOfTheFiles) {
   const auto read = ReadOriginalExpressions(Data(), Data() + "/fheadv2.pnt");
   ASSERT_TRUE(read) << read.error().text;
-  EXPECT_EQ(read->all.size(), 6U + 6 * 4 + 5);
+  EXPECT_EQ(read->expressions.size(), 6U + 6 * 4 + 5);
   EXPECT_EQ(read->residuals.size(), 3U)
       << "DISGUSTED, SURPRISED and FEARED are no mixture of units";
   EXPECT_TRUE(read->without_residual.empty());
   const OriginalSpace frame(face_.standard);
   for (std::size_t k = 0; k < 6; ++k) {
-    const OriginalExpression& one = read->all[k];
+    const OriginalExpression& one = read->expressions[k];
     FaceState state;
     for (std::size_t i = 0; i < kOriginalUnits; ++i) {
       state.au.right[static_cast<std::size_t>(kUnitNumbers[i])] = one.strengths.right[i];
@@ -348,7 +348,7 @@ TEST_F(StandardFaceTest, ExpressionsAreThoseOfTheFiles) {
       const int group = face_.wireframe.names[i].first;
       // Lips are kept from crossing, and lids out of the eyes: there ours differs on purpose.
       if (group < 6 || group > 15) continue;
-      const glm::vec3 by = frame.mm() * file->at[file->index.at(face_.wireframe.names[i])];
+      const glm::vec3 by = frame.mm() * file->positions[file->index.at(face_.wireframe.names[i])];
       most = std::max(most, glm::length(by));
       worst = std::max(worst, glm::distance(by, moved.position[i] - rest_.position[i]));
     }

@@ -103,7 +103,7 @@ struct Box {
   Box() {
     for (int i = 0; i < 8; ++i) {
       place.emplace_back((i & 1) != 0 ? 50 : -50, (i & 2) != 0 ? 60 : -60, (i & 4) != 0 ? 70 : 0);
-      pairs.push_back({place.back(), place.back() + glm::vec3(1, 2, 3), LipOrLid::kPlain});
+      pairs.push_back({place.back(), place.back() + glm::vec3(1, 2, 3), FaceFeature::kNone});
     }
     triangles = {4, 5, 7, 4, 7, 6, 1, 0, 2, 1, 2, 3, 0, 4, 6, 0, 6, 2,
                  5, 1, 3, 5, 3, 7, 6, 7, 3, 6, 3, 2, 0, 1, 5, 0, 5, 4};

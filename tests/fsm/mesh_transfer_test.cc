@@ -88,14 +88,14 @@ class DeformationTransferTest : public testing::Test {
               pairs_, [&](const auto& pair) { return glm::distance(pair.from, p) < apart; })) {
         continue;
       }
-      PointPair pair{p, to_rest_.position[v], LipOrLid::kPlain};
+      PointPair pair{p, to_rest_.position[v], FaceFeature::kNone};
       if (lip[v] && std::abs(p.y - stomion.y) > 3 && std::abs(p.x) < 16) {
-        pair.on = p.y > stomion.y ? LipOrLid::kUpperLip : LipOrLid::kLowerLip;
+        pair.feature = p.y > stomion.y ? FaceFeature::kUpperLip : FaceFeature::kLowerLip;
       }
       for (const Side side : kSides) {
         const glm::vec3 d = p - from_->EyeCentre(side);
         if (glm::length(d) < 15 && std::abs(d.y) > 4) {
-          pair.on = d.y > 0 ? LipOrLid::kUpperLid : LipOrLid::kLowerLid;
+          pair.feature = d.y > 0 ? FaceFeature::kUpperLid : FaceFeature::kLowerLid;
         }
       }
       pairs_.push_back(pair);
@@ -318,14 +318,14 @@ struct FlatLips {
 };
 
 /// The second has its slit 1.6 mm lower than landmarks say.
-void ExpectEachFollowsItsOwn(LipOrLid upper_part, LipOrLid lower_part) {
+void ExpectEachFollowsItsOwn(FaceFeature upper_part, FaceFeature lower_part) {
   const FlatLips from(0), to(-1.6F);
   std::vector<PointPair> pairs;
-  const auto add = [&](float x, float y, LipOrLid part) {
+  const auto add = [&](float x, float y, FaceFeature part) {
     pairs.push_back({FlatLips::At(x, y), FlatLips::At(x, y), part});
   };
   for (const float x : {-18.0F, 0.0F, 18.0F}) {
-    for (const float y : {-26.0F, 26.0F}) add(x, y, LipOrLid::kPlain);
+    for (const float y : {-26.0F, 26.0F}) add(x, y, FaceFeature::kNone);
   }
   for (const float x : {-12.0F, -4.0F, 4.0F, 12.0F}) {
     add(x, 6, upper_part);
@@ -341,11 +341,11 @@ void ExpectEachFollowsItsOwn(LipOrLid upper_part, LipOrLid lower_part) {
 }
 
 TEST(TransferOppositesTest, EachLipFollowsItsOwnWhereTheSlitIsNotQuiteWhereLandmarksSay) {
-  ExpectEachFollowsItsOwn(LipOrLid::kUpperLip, LipOrLid::kLowerLip);
+  ExpectEachFollowsItsOwn(FaceFeature::kUpperLip, FaceFeature::kLowerLip);
 }
 
 TEST(TransferOppositesTest, EachLidFollowsItsOwnWhereTheSlitIsNotQuiteWhereLandmarksSay) {
-  ExpectEachFollowsItsOwn(LipOrLid::kUpperLid, LipOrLid::kLowerLid);
+  ExpectEachFollowsItsOwn(FaceFeature::kUpperLid, FaceFeature::kLowerLid);
 }
 
 TEST(WeldedSurfaceTest, WhatAnEyeballHidesIsNotSeen) {
@@ -381,14 +381,15 @@ TEST(TransferRefusesTest, TooFewPlaces) {
 TEST(HeadPointsTest, WhatIsWrittenIsReadAgain) {
   HeadPoints points;
   for (int i = 0; i < 9; ++i) {
-    points.pairs.push_back({{i, 2, 3}, {4, 5, 0.25F * static_cast<float>(i)}, LipOrLid::kLowerLip});
+    points.pairs.push_back(
+        {{i, 2, 3}, {4, 5, 0.25F * static_cast<float>(i)}, FaceFeature::kLowerLip});
   }
   const auto read = ParseHeadPoints("p", FormatHeadPoints(points));
   ASSERT_TRUE(read) << read.error().text;
   EXPECT_EQ(read->face, "galatea");
   ASSERT_EQ(read->pairs.size(), 9U);
   EXPECT_EQ(read->pairs[8].to.z, 2.0F);
-  EXPECT_EQ(read->pairs[8].on, LipOrLid::kLowerLip);
+  EXPECT_EQ(read->pairs[8].feature, FaceFeature::kLowerLip);
 }
 
 TEST(HeadPointsTest, DamageIsToldWithItsLine) {
@@ -408,7 +409,7 @@ TEST(SimilarityTest, TurnSizeAndPlaceAreFound) {
   std::vector<PointPair> pairs;
   for (const glm::vec3 p : {glm::vec3(1, 2, 3), glm::vec3(-4, 0, 2), glm::vec3(5, -1, 0),
                             glm::vec3(0, 7, -3), glm::vec3(2, 2, 9)}) {
-    pairs.push_back({12.5F * (turn * p) + glm::vec3(10, -20, 30), p, LipOrLid::kPlain});
+    pairs.push_back({12.5F * (turn * p) + glm::vec3(10, -20, 30), p, FaceFeature::kNone});
   }
   const Similarity fit = FitSimilarity(pairs);
   EXPECT_NEAR(fit.scale, 12.5F, 0.01F);

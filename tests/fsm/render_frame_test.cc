@@ -337,7 +337,7 @@ TEST(HeadSerialTest, NoTwoHeadsHaveTheSameNotEvenTheOneMadeOfTheOther) {
   std::optional<BallHead> head(std::in_place);
   const std::uint64_t first = head->serial();
   EXPECT_EQ(head->serial(), first);
-  const auto other = head->WithUnits(head->rig().data().unit_effects);
+  const auto other = head->WithUnits(head->rig().data().units);
   EXPECT_NE(other->serial(), first);
   head.emplace();
   EXPECT_NE(head->serial(), first);

@@ -144,7 +144,7 @@ vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::Pnt
   if (auto whole = fsm::CheckPoints(name, wireframe); !whole) return std::unexpected(whole.error());
   HandPoints points;
   for (const auto& [point, of] : kSame) {
-    const glm::vec3 p = wireframe.at[wireframe.index.at(of)];
+    const glm::vec3 p = wireframe.positions[wireframe.index.at(of)];
     points[point] = {0.5F * (p.x + 1) * static_cast<float>(width),
                      0.5F * (1 - p.y) * static_cast<float>(height)};
   }

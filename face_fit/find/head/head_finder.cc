@@ -46,16 +46,16 @@ fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3&
   return guess;
 }
 
-fsm::LipOrLid LipOrLidOf(PointIndex i) {
+fsm::FaceFeature FeatureOf(PointIndex i) {
   // Inner lips are kPlain: where the lips meet, the nearest vertex may be the other lip's.
-  if (Contains(point::kUpperOuterLip, i)) return fsm::LipOrLid::kUpperLip;
-  if (Contains(point::kLowerOuterLip, i)) return fsm::LipOrLid::kLowerLip;
+  if (Contains(point::kUpperOuterLip, i)) return fsm::FaceFeature::kUpperLip;
+  if (Contains(point::kLowerOuterLip, i)) return fsm::FaceFeature::kLowerLip;
   for (const fsm::Side side : fsm::kSides) {
     const std::span outline(point::kEyeOutline[side]);
-    if (Contains(outline.subspan(1, kInnerCorner - 1), i)) return fsm::LipOrLid::kUpperLid;
-    if (Contains(outline.subspan(kInnerCorner + 1), i)) return fsm::LipOrLid::kLowerLid;
+    if (Contains(outline.subspan(1, kInnerCorner - 1), i)) return fsm::FaceFeature::kUpperLid;
+    if (Contains(outline.subspan(kInnerCorner + 1), i)) return fsm::FaceFeature::kLowerLid;
   }
-  return fsm::LipOrLid::kPlain;
+  return fsm::FaceFeature::kNone;
 }
 
 /// Moves the points of the inner lips onto a lip seam, at equal steps.
@@ -132,7 +132,7 @@ class HeadMatcher {
       const bool corner = Contains(point::kMouthCorners, i);
       if (OnInnerLips(i) ? !both : both && corner) continue;
       const glm::vec3 raw = to_base.Inverse(on_other[i].On(other->rest().position));
-      found.push_back({on_base[i].On(base_.rest().position), raw, LipOrLidOf(i)});
+      found.push_back({on_base[i].On(base_.rest().position), raw, FeatureOf(i)});
     }
     return found;
   }

@@ -18,7 +18,7 @@ const fsm::PointPair* MirroredPair(const fsm::PointPair& pair,
                                    std::span<const fsm::PointPair> pairs) {
   constexpr float kSameMm = 5;
   const auto nearest = std::ranges::min_element(pairs, {}, [&](const fsm::PointPair& other) {
-    return other.on == pair.on ? glm::distance(kMirror * other.from, pair.from) : 1e9F;
+    return other.feature == pair.feature ? glm::distance(kMirror * other.from, pair.from) : 1e9F;
   });
   return glm::distance(kMirror * nearest->from, pair.from) > kSameMm ? nullptr : &*nearest;
 }

@@ -218,7 +218,7 @@ class GltfReader {
       spring.root *= round;
     }
     for (auto& shape : head_.shapes) {
-      for (Displacement& move : shape.moves) move.by *= round;
+      for (Displacement& move : shape.moves) move.offset *= round;
     }
   }
 

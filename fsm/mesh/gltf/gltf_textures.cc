@@ -197,8 +197,8 @@ ImportedHead::Detail GltfTextures::DetailOf(const GltfMaterial& given, const Glt
   auto normal = read(given.normal), metallic_roughness = read(given.metallic_roughness);
   if (ToOneSize(normal, metallic_roughness, {128, 128, 255, 255}, {255, 255, 255, 255})) {
     const auto scaled = [&](std::uint8_t byte) {
-      const float off = given.normal.strength * (static_cast<float>(byte) - 128);
-      return static_cast<std::uint8_t>(std::clamp(128 + off, 1.0f, 255.0f));
+      const float slope = given.normal.strength * (static_cast<float>(byte) - 128);
+      return static_cast<std::uint8_t>(std::clamp(128 + slope, 1.0f, 255.0f));
     };
     for (std::size_t i = 0; i < normal->rgba.size(); i += 4) {
       std::uint8_t* n = &normal->rgba[i];

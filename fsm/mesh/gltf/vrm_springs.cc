@@ -53,11 +53,11 @@ VrmSprings::VrmSprings(const GltfDocument& document, const GltfNodes& nodes)
 
 VrmSprings::Joint VrmSprings::AddJoint(std::int64_t node, const Joint* above, glm::vec3 tail,
                                        const Dynamics& dynamics) {
-  Joint joint{.from = PositionOf(node)};
-  joint.chain_from = above != nullptr ? above->chain_from : joint.from;
+  Joint joint{.position = PositionOf(node)};
+  joint.chain_start = above != nullptr ? above->chain_start : joint.position;
   joint.before = above != nullptr ? above->spring : -1;
   joint.spring = static_cast<int>(springs_.size());
-  springs_.push_back(SpringOf(joint.chain_from, tail, dynamics.stiffness, dynamics.gravity,
+  springs_.push_back(SpringOf(joint.chain_start, tail, dynamics.stiffness, dynamics.gravity,
                               dynamics.drag, dynamics.collides));
   joints_.emplace(node, joint);
   return joint;
@@ -108,8 +108,8 @@ void VrmSprings::AddBranch(std::int64_t node, const Joint* above, const Dynamics
   glm::vec3 tail = from;
   if (!children.empty()) {
     tail = PositionOf(children.front());
-  } else if (above != nullptr && glm::distance(from, above->from) > 1e-6f) {
-    tail += kEndLength * glm::normalize(from - above->from);
+  } else if (above != nullptr && glm::distance(from, above->position) > 1e-6f) {
+    tail += kEndLength * glm::normalize(from - above->position);
   } else {
     tail.y -= kEndLength;
   }
@@ -130,9 +130,9 @@ void VrmSprings::Bind(std::uint32_t vertex, glm::vec3 p, std::int64_t node, floa
     add(joint.spring, weight);
     return;
   }
-  const glm::vec3 along = springs_[static_cast<std::size_t>(joint.spring)].rest - joint.from;
+  const glm::vec3 along = springs_[static_cast<std::size_t>(joint.spring)].rest - joint.position;
   const float length = std::max(glm::dot(along, along), kShortest * kShortest);
-  const float share = std::clamp(glm::dot(p - joint.from, along) / length, 0.0f, 1.0f);
+  const float share = std::clamp(glm::dot(p - joint.position, along) / length, 0.0f, 1.0f);
   add(joint.spring, weight * share);
   add(joint.before, weight * (1 - share));
 }

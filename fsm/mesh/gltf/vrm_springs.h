@@ -42,11 +42,11 @@ class VrmSprings {
     bool collides = false;
   };
   struct Joint {
-    glm::vec3 from{0};        // the centre of its rotation
-    int spring = -1;          // at its end
-    int before = -1;          // the spring of its parent; -1: none, it is fixed to the head
-    bool ends_chain = false;  // it only marks the end of its predecessor, whose spring it has
-    glm::vec3 chain_from{0};  // the start of its chain
+    glm::vec3 position{0};     // the centre of its rotation
+    int spring = -1;           // at its end
+    int before = -1;           // the spring of its parent; -1: none, it is fixed to the head
+    bool ends_chain = false;   // it only marks the end of its predecessor, whose spring it has
+    glm::vec3 chain_start{0};  // of its chain
   };
   void ReadVrm0(const nlohmann::json& animation);
   void ReadVrm1(const nlohmann::json& extension);

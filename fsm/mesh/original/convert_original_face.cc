@@ -46,7 +46,7 @@ class OriginalBuilder {
   void AddFace(std::size_t picture) {
     // The picture covers -1..1 of the wireframe at rest in both directions.
     const float chin = space_.PositionMm(face_.wireframe, kChin).y;
-    for (const glm::vec3& p : face_.wireframe.at) {
+    for (const glm::vec3& p : face_.wireframe.positions) {
       const glm::vec2 texcoord =
           atlas_.rect(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0f, 0.0f, 1.0f));
       const glm::vec3 at = space_.ToMm(p);
@@ -188,7 +188,7 @@ class OriginalBuilder {
   /// jaws.
   void AddTeeth(const ObjFile& teeth, Bone bone) {
     const auto at = [this](PointName name) {
-      return face_.wireframe.at[face_.wireframe.index.at(name)];
+      return face_.wireframe.positions[face_.wireframe.index.at(name)];
     };
     const bool upper = bone == Bone::kSkull;
     const TeethPoints& places = upper ? kUpperTeeth : kLowerTeeth;

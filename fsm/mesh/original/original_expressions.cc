@@ -51,7 +51,7 @@ class ExpressionReader {
         const std::string path = PathOf(folder_, files.stem, files.first_number + i);
         std::error_code none;
         if (!std::filesystem::exists(path, none)) continue;
-        OriginalExpression& made = out_.all.emplace_back(ReadOne(path));
+        OriginalExpression& made = out_.expressions.emplace_back(ReadOne(path));
         made.name = files.name;
         made.pattern = files.first_pattern + i;
       }
@@ -70,7 +70,7 @@ class ExpressionReader {
         throw vm::Failure(
             {vm::Errc::kBadValue, path + ": " + InWords(name) + " of '" + path_ + "' is missing"});
       }
-      const glm::vec3 by = space_.mm() * file.at[found->second];
+      const glm::vec3 by = space_.mm() * file.positions[found->second];
       row.insert(row.end(), {by.x, by.y, by.z});
     }
     return row;
@@ -80,7 +80,8 @@ class ExpressionReader {
     const float middle = 0.5f * (space_.PositionMm(standard_, kLipCorners.right).x +
                                  space_.PositionMm(standard_, kLipCorners.left).x);
     std::vector<float> left;
-    for (const glm::vec3& p : standard_.at) left.push_back(LeftShareAt(space_.ToMm(p).x - middle));
+    for (const glm::vec3& p : standard_.positions)
+      left.push_back(LeftShareAt(space_.ToMm(p).x - middle));
     std::vector<NnlsSolver::Row> halves;
     for (int unit = 1; unit <= static_cast<int>(kOriginalUnits); ++unit) {
       const std::string path = PathOf(folder_, "AU", unit);
@@ -119,7 +120,7 @@ class ExpressionReader {
                          parts.residual[3 * i + 2]);
       most = std::max(most, glm::length(by));
       residual.index.emplace(standard_.names[i], i);
-      residual.at.push_back(by / space_.mm());
+      residual.positions.push_back(by / space_.mm());
     }
     residual.names = standard_.names;
     if (most < kMinResidualMm) return made;

@@ -23,7 +23,7 @@ struct OriginalExpression {
 };
 
 struct OriginalExpressions {
-  std::vector<OriginalExpression> all;
+  std::vector<OriginalExpression> expressions;
   /// At most as many as Residuals has; offsets in the unit of the files.
   std::vector<PntFile> residuals;
   /// Expressions for whose residual no number was left; only their units are shown.

@@ -30,7 +30,8 @@ Offsets ReadResiduals(const PntFile& wireframe, const OriginalSharedFiles& share
     std::vector<glm::vec3>& offsets = all.emplace_back();
     for (const PointName& name : wireframe.names) {
       const auto found = residual.index.find(name);
-      offsets.push_back(found == residual.index.end() ? glm::vec3(0) : residual.at[found->second]);
+      offsets.push_back(found == residual.index.end() ? glm::vec3(0)
+                                                      : residual.positions[found->second]);
     }
   }
   return all;
@@ -50,7 +51,7 @@ Offsets ReadOffsets(const PntFile& wireframe, const std::string& stem, std::size
         throw vm::Failure({vm::Errc::kBadValue,
                            path + ": " + InWords(name) + " of the face's wireframe is missing"});
       }
-      offsets.push_back(file.at[found->second]);
+      offsets.push_back(file.positions[found->second]);
     }
   }
   return all;

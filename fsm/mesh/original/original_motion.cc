@@ -37,7 +37,7 @@ class OriginalRigBaker {
   RigData Bake(const VisemeMouths& mouths, const MouthUnitSizes& unit_sizes) {
     rig_ = MakeStillSkin();
     rig_.steps = {RigStep::kChannels, RigStep::kLips, RigStep::kJawByChin};
-    rig_.lips = LipsOf(model_, face_.wireframe.at.size());
+    rig_.lips = LipsOf(model_, face_.wireframe.positions.size());
     rig_.jaw.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
     AddUnits();
     for (std::size_t k = 0; k < face_.expression_residuals.size(); ++k) {
@@ -93,7 +93,7 @@ class OriginalRigBaker {
         std::vector<Displacement> moves = both;
         for (Displacement& d : moves) {
           const float share = LeftShareAt(model_.mesh.position[d.vertex].x - middle);
-          d.by *= side == Side::kLeft ? share : 1 - share;
+          d.offset *= side == Side::kLeft ? share : 1 - share;
         }
         const auto number = static_cast<std::size_t>(kUnitNumbers[k]);
         Channel& channel = Add(std::move(moves), {{Asked(number, side)}});

@@ -23,7 +23,7 @@ constexpr Sided<std::array<PointName, 12>> kLids{LidsOf(4), LidsOf(5)};
 
 glm::vec3 MeanOfRim(const PntFile& file, Side side) {
   glm::vec3 sum(0);
-  for (const PointName& name : kLids[side]) sum += file.at[file.index.at(name)];
+  for (const PointName& name : kLids[side]) sum += file.positions[file.index.at(name)];
   return sum / static_cast<float>(kLids[side].size());
 }
 

@@ -74,7 +74,7 @@ class OriginalSpace {
   explicit OriginalSpace(const PntFile& wireframe);
   glm::vec3 ToMm(glm::vec3 p) const { return (p - middle_) * mm_ + kOpening; }
   glm::vec3 PositionMm(const PntFile& file, PointName name) const {
-    return ToMm(file.at[file.index.at(name)]);
+    return ToMm(file.positions[file.index.at(name)]);
   }
   glm::vec3 EyeOpening(const PntFile& file, Side side) const;
   float mm() const { return mm_; }

@@ -111,11 +111,11 @@ vm::Result<PntFile> ParsePnt(const std::string& name, std::string_view text) {
         !ReadReal(words[3], at.x) || !ReadReal(words[4], at.y) || !ReadReal(words[5], at.z)) {
       return lines.Fail("INDEX GROUP NUMBER X Y Z expected, not " + Shown(words));
     }
-    if (!file.index.emplace(point, file.at.size()).second) {
+    if (!file.index.emplace(point, file.positions.size()).second) {
       return lines.Fail(InWords(point) + " is there twice");
     }
     file.names.push_back(point);
-    file.at.push_back(at);
+    file.positions.push_back(at);
     return {};
   });
   if (!read) return std::unexpected(read.error());

@@ -22,8 +22,8 @@ std::string InWords(const PointName& point);
 /// A wireframe of the original, or offsets from one: positions by name, in the order of the file.
 struct PntFile {
   std::vector<PointName> names;
-  std::vector<glm::vec3> at;
-  std::map<PointName, std::size_t> index;  ///< index into `names` and `at`
+  std::vector<glm::vec3> positions;
+  std::map<PointName, std::size_t> index;  ///< index into `names` and `positions`
 };
 
 /// The triangles of a wireframe, each with the number of its group.

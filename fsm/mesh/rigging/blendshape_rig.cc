@@ -104,7 +104,7 @@ void AddGazeShapes(const KnownShapes& known, const GazeRanges& ranges,
     channel.min = 0;
     channel.max = 1;
     channel.moves = found->second;
-    for (Displacement& d : channel.moves) d.by *= std::min(shape.range.output, 1.0f);
+    for (Displacement& d : channel.moves) d.offset *= std::min(shape.range.output, 1.0f);
   }
 }
 
@@ -148,8 +148,8 @@ std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similar
   for (const FaceState& meaning : known.meanings) solver.Add(meaning);
   RigData rig = MakeStillSkin();
   rig.steps = {RigStep::kChannels};
-  rig.unit_effects = driven.rig().data().unit_effects;
-  AddShapes(known, solver, FitDrivers(solver, rig.unit_effects, visemes), rig.channels);
+  rig.units = driven.rig().data().units;
+  AddShapes(known, solver, FitDrivers(solver, rig.units, visemes), rig.channels);
   AddGazeShapes(known, file.eye_rig.gaze_ranges.value_or(GazeRanges{}), rig.channels);
   return rig;
 }

@@ -84,7 +84,7 @@ class RigResampler {
     for (const Channel& channel : source_.channels) {
       if (!channel.IsLedBy(Drive::Kind::kMouth)) continue;
       std::ranges::fill(by, glm::vec3(0));
-      for (const Displacement& d : channel.moves) by[d.vertex] = d.by;
+      for (const Displacement& d : channel.moves) by[d.vertex] = d.offset;
       Channel& own = rig_.channels.emplace_back(channel);
       own.moves.clear();
       for (std::uint32_t v = 0; v < rows_.size(); ++v) {
@@ -103,26 +103,26 @@ class RigResampler {
     const auto lids = ByVertex(source_.lids.vertices);
     for (std::uint32_t v = 0; v < rows_.size(); ++v) {
       LidRig::Vertex mean{.vertex = v};
-      float sum = 0, left = 0, proper = 0;
+      float sum = 0, left = 0, lid_share = 0;
       for (const auto& [from, share] : rows_[v]) sum += lids[from] ? share : 0;
       if (sum <= 0) continue;
       for (const auto& [from, share] : rows_[v]) {
         const LidRig::Vertex* one = lids[from];
         if (!one) continue;
         const float of_lids = share / sum;
-        mean.at.upper += share * one->at.upper;
-        mean.at.lower += share * one->at.lower;
-        mean.at.upper_angle += of_lids * one->at.upper_angle;
-        mean.at.lower_angle += of_lids * one->at.lower_angle;
-        mean.at.meet_angle += of_lids * one->at.meet_angle;
-        mean.at.opening += of_lids * one->at.opening;
-        mean.at.y += of_lids * one->at.y;
-        mean.at.z += of_lids * one->at.z;
+        mean.point.upper += share * one->point.upper;
+        mean.point.lower += share * one->point.lower;
+        mean.point.upper_angle += of_lids * one->point.upper_angle;
+        mean.point.lower_angle += of_lids * one->point.lower_angle;
+        mean.point.meet_angle += of_lids * one->point.meet_angle;
+        mean.point.opening += of_lids * one->point.opening;
+        mean.point.y += of_lids * one->point.y;
+        mean.point.z += of_lids * one->point.z;
         left += one->side == Side::kLeft ? of_lids : 0;
-        proper += one->proper ? share : 0;
+        lid_share += one->is_lid ? share : 0;
       }
       mean.side = left > 0.5f ? Side::kLeft : Side::kRight;
-      mean.proper = proper > 0.5f;
+      mean.is_lid = lid_share > 0.5f;
       rig_.lids.vertices.push_back(mean);
     }
   }
@@ -230,14 +230,15 @@ std::vector<glm::vec3> OwnForm(const RigData& rig, const UnriggedHead& model,
 /// Moves the undrawn lips to the head's lips; the vertices of a pair stay together.
 void MoveLips(const UnriggedHead& model, std::span<const PointPair> pairs,
               std::vector<glm::vec3>& form) {
-  const auto off = [&](glm::vec3 at) {
+  const auto displacement = [&](glm::vec3 at) {
     constexpr float kNear = 3;  // millimetres
     glm::vec3 sum(0);
     float weight = 1e-9f;
     for (const PointPair& pair : pairs) {
-      if (pair.on != LipOrLid::kUpperLip && pair.on != LipOrLid::kLowerLip) continue;
-      const float far = glm::distance(pair.from, at) / kNear;
-      const float one = std::exp(-far * far);
+      if (pair.feature != FaceFeature::kUpperLip && pair.feature != FaceFeature::kLowerLip)
+        continue;
+      const float distance = glm::distance(pair.from, at) / kNear;
+      const float one = std::exp(-distance * distance);
       sum += one * (pair.to - pair.from);
       weight += one;
     }
@@ -245,11 +246,11 @@ void MoveLips(const UnriggedHead& model, std::span<const PointPair> pairs,
   };
   for (const auto& [upper, lower] : model.mouth.seam) {
     form[upper] = form[lower] =
-        off(0.5f * (model.mesh.position[upper] + model.mesh.position[lower]));
+        displacement(0.5f * (model.mesh.position[upper] + model.mesh.position[lower]));
   }
   if (!model.mouth.corners) return;
   for (const std::uint32_t corner : model.mouth.corners->InOrder())
-    form[corner] = off(model.mesh.position[corner]);
+    form[corner] = displacement(model.mesh.position[corner]);
 }
 
 DeformationTransfer TransferBetween(const Head& source, const UnriggedHead& model,
@@ -285,10 +286,10 @@ RigData TransferRig(UnriggedHead& model, const Head& source, std::span<const Poi
   const std::vector<Row> rows = AddLips(from, transfer.rows(), model);
   rig.lips.apart_at_rest = from.lips.apart_at_rest;
   RigResampler(from, rows, rig).Resample(model.mesh.position);
-  rig.unit_effects = from.unit_effects;
+  rig.units = from.units;
   rig.asymmetry_seed = from.asymmetry_seed;
   rig.units_by_place = true;
-  std::ranges::move(UnitChannels(rig.unit_effects, model.mesh.bone, rig.weights),
+  std::ranges::move(UnitChannels(rig.units, model.mesh.bone, rig.weights),
                     std::back_inserter(rig.channels));
   rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};  // twice, as in make_head.cc
   rig.proxy.to_own = OwnForm(rig, model, rows);

@@ -17,14 +17,15 @@ namespace {
 
 /// A vertex of a lip or lid, from which distances along the surface are measured.
 struct LipSeed {
-  LipOrLid on;
+  FaceFeature feature;
   std::uint32_t vertex;
 };
 
 std::vector<LipSeed> SeedsOf(const WeldedSurface& source, std::span<const PointPair> pairs) {
   std::vector<LipSeed> seeds;
   for (const PointPair& pair : pairs) {
-    if (pair.on != LipOrLid::kPlain) seeds.push_back({pair.on, source.Nearest(pair.from)});
+    if (pair.feature != FaceFeature::kNone)
+      seeds.push_back({pair.feature, source.Nearest(pair.from)});
   }
   return seeds;
 }
@@ -38,28 +39,28 @@ std::vector<LipSeed> SeedsOnTarget(const WeldedSurface& warped, std::span<const 
   constexpr float kReach = 20;
   const SurfaceIndex index(target, kReach);
   std::vector<LipSeed> found;
-  for (const auto& [on, vertex] : seeds) {
+  for (const auto& [feature, vertex] : seeds) {
     const auto hit = index.Find(warped, vertex);
     if (!hit) continue;
     const glm::vec3 b = hit->barycentric;
     const std::size_t corner = b.x >= b.y && b.x >= b.z ? 0 : b.y >= b.z ? 1 : 2;
-    found.push_back({on, target.triangles[hit->triangle][corner]});
+    found.push_back({feature, target.triangles[hit->triangle][corner]});
   }
   return found;
 }
 
 /// Marks the lips and lids of a surface by the distances along it from their seeds.
 void MarkLipsAndLids(WeldedSurface& surface, std::span<const LipSeed> seeds) {
-  const auto mark = [&](LipOrLid upper, LipOrLid lower, float reach, float clear,
+  const auto mark = [&](FaceFeature upper, FaceFeature lower, float reach, float clear,
                         std::vector<float>& out) {
     std::vector<std::uint32_t> above, below;
-    for (const auto& [on, vertex] : seeds) {
-      if (on == upper) above.push_back(vertex);
-      if (on == lower) below.push_back(vertex);
+    for (const auto& [feature, vertex] : seeds) {
+      if (feature == upper) above.push_back(vertex);
+      if (feature == lower) below.push_back(vertex);
     }
     if (above.empty() || below.empty()) return;
-    const auto up = ShortestPaths(surface.neighbours, surface.at, above, reach).length,
-               down = ShortestPaths(surface.neighbours, surface.at, below, reach).length;
+    const auto up = ShortestPaths(surface.neighbours, surface.position, above, reach).length,
+               down = ShortestPaths(surface.neighbours, surface.position, below, reach).length;
     for (std::size_t i = 0; i < out.size(); ++i) {
       // Distances along edges are uncertain by the length of an edge.
       const float nearer = down[i] - up[i];
@@ -69,8 +70,8 @@ void MarkLipsAndLids(WeldedSurface& surface, std::span<const LipSeed> seeds) {
       out[i] = here * SmoothStep(reach, 0.5f * reach, std::min(up[i], down[i]));
     }
   };
-  mark(LipOrLid::kUpperLip, LipOrLid::kLowerLip, 40, 12, surface.lip);
-  mark(LipOrLid::kUpperLid, LipOrLid::kLowerLid, 20, 8, surface.lid);
+  mark(FaceFeature::kUpperLip, FaceFeature::kLowerLip, 40, 12, surface.lip);
+  mark(FaceFeature::kUpperLid, FaceFeature::kLowerLid, 20, 8, surface.lid);
 }
 
 /// Diffuses values over a surface: vertices without a weight take the mean of their neighbours.
@@ -116,7 +117,8 @@ class EdgePull {
  public:
   EdgePull(std::span<const PointPair> pairs, const Warp& warp) {
     for (const PointPair& pair : pairs) {
-      if (pair.on != LipOrLid::kUpperLid && pair.on != LipOrLid::kLowerLid) continue;
+      if (pair.feature != FaceFeature::kUpperLid && pair.feature != FaceFeature::kLowerLid)
+        continue;
       const glm::vec3 at = pair.from + warp.Motion(pair.from);
       left_.push_back({at, pair.to - at});
     }
@@ -126,9 +128,9 @@ class EdgePull {
     glm::vec3 sum(0);
     float total = 0, most = 0;
     for (const WarpPoint& point : left_) {
-      const glm::vec3 off = (p - point.at) / kNear;
-      const float weight = std::exp(-0.5f * glm::dot(off, off));
-      sum += weight * point.by;
+      const glm::vec3 offset = (p - point.position) / kNear;
+      const float weight = Gaussian(glm::dot(offset, offset));
+      sum += weight * point.displacement;
       total += weight;
       most = std::max(most, weight);
     }
@@ -149,9 +151,9 @@ WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pair
   const Warp warp(points, kSmooth);
   const EdgePull edges(pairs, warp);
   WeldedSurface carried = rest;
-  for (glm::vec3& p : carried.at) p = edges.Pulled(p + warp.Motion(p));
+  for (glm::vec3& p : carried.position) p = edges.Pulled(p + warp.Motion(p));
   // Points nearly in one plane do not determine the warp away from it.
-  CheckVertices(carried.at, "the face, where the places that both faces have take it,");
+  CheckVertices(carried.position, "the face, where the places that both faces have take it,");
   carried.FindNormals();
   return carried;
 }
@@ -160,18 +162,18 @@ WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pair
 /// smoothed over about `rounds` triangles.
 void PullTowards(WeldedSurface& pulled, const WeldedSurface& target, float reach, int rounds) {
   const SurfaceIndex there(target, reach);
-  std::vector<glm::vec3> by(pulled.at.size(), glm::vec3(0));
-  std::vector<float> weight(pulled.at.size(), 0);
-  for (std::size_t i = 0; i < pulled.at.size(); ++i) {
+  std::vector<glm::vec3> by(pulled.position.size(), glm::vec3(0));
+  std::vector<float> weight(pulled.position.size(), 0);
+  for (std::size_t i = 0; i < pulled.position.size(); ++i) {
     const auto hit = there.Find(pulled, i);
     if (!hit) continue;
     // Move only along the normal: the landmarks determine the tangential position, and the nearest
     // point, whose triangle changes from round to round, would drift.
-    by[i] = glm::dot(hit->at - pulled.at[i], pulled.normal[i]) * pulled.normal[i];
+    by[i] = glm::dot(hit->position - pulled.position[i], pulled.normal[i]) * pulled.normal[i];
     weight[i] = SmoothStep(reach, 0.4f * reach, hit->distance_mm);
   }
   Diffuse(pulled, by, weight, rounds);
-  for (std::size_t i = 0; i < pulled.at.size(); ++i) pulled.at[i] += 0.8f * by[i];
+  for (std::size_t i = 0; i < pulled.position.size(); ++i) pulled.position[i] += 0.8f * by[i];
   pulled.FindNormals();
 }
 
@@ -208,10 +210,10 @@ std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
     const WeldedSurface& rest, const WeldedSurface& pulled, const WeldedSurface& target) {
   constexpr float kReach = 20;
   const SurfaceIndex own(pulled, kReach);
-  std::vector<BarycentricBinding> bindings(target.at.size());
+  std::vector<BarycentricBinding> bindings(target.position.size());
   std::vector<std::uint32_t> open;
-  std::vector<bool> bound(target.at.size(), false);
-  for (std::uint32_t w = 0; w < target.at.size(); ++w) {
+  std::vector<bool> bound(target.position.size(), false);
+  for (std::uint32_t w = 0; w < target.position.size(); ++w) {
     const auto hit = own.Find(target, w);
     if (!hit) continue;
     const auto& t = pulled.triangles[hit->triangle];

@@ -12,12 +12,12 @@ namespace fsm {
 class WeldedSurface;
 
 /// What lies so near to its opposite that the nearest point may be on the wrong one.
-enum class LipOrLid : std::uint8_t { kPlain, kUpperLip, kLowerLip, kUpperLid, kLowerLid };
+enum class FaceFeature : std::uint8_t { kNone, kUpperLip, kLowerLip, kUpperLid, kLowerLid };
 
 /// Corresponding points of two faces, millimetres.
 struct PointPair {
   glm::vec3 from, to;
-  LipOrLid on = LipOrLid::kPlain;
+  FaceFeature feature = FaceFeature::kNone;
 };
 
 /// The source or the target of a transfer. Both are in the same frame, roughly aligned.

@@ -25,11 +25,12 @@ Neighbours NeighboursAlongEdges(std::size_t vertices,
   return next;
 }
 
-MeshPaths ShortestPaths(const Neighbours& next, std::span<const glm::vec3> at,
+MeshPaths ShortestPaths(const Neighbours& next, std::span<const glm::vec3> position,
                         std::span<const std::uint32_t> seeds, float reach) {
-  MeshPaths paths{std::vector<float>(at.size(), reach), std::vector<std::uint32_t>(at.size())};
-  using Way = std::tuple<float, std::uint32_t, std::uint32_t>;  // length, seed, last vertex
-  std::priority_queue<Way, std::vector<Way>, std::greater<>> open;
+  MeshPaths paths{std::vector<float>(position.size(), reach),
+                  std::vector<std::uint32_t>(position.size())};
+  using QueueEntry = std::tuple<float, std::uint32_t, std::uint32_t>;  // length, seed, last vertex
+  std::priority_queue<QueueEntry, std::vector<QueueEntry>, std::greater<>> open;
   for (std::uint32_t k = 0; k < seeds.size(); ++k) open.emplace(0.0f, k, seeds[k]);
   while (!open.empty()) {
     const auto [length, seed, v] = open.top();
@@ -38,8 +39,8 @@ MeshPaths ShortestPaths(const Neighbours& next, std::span<const glm::vec3> at,
     paths.length[v] = length;
     paths.seed[v] = seed;
     for (const std::uint32_t w : next[v]) {
-      const float on = length + glm::distance(at[v], at[w]);
-      if (on < paths.length[w]) open.emplace(on, seed, w);
+      const float new_length = length + glm::distance(position[v], position[w]);
+      if (new_length < paths.length[w]) open.emplace(new_length, seed, w);
     }
   }
   return paths;

@@ -18,7 +18,7 @@ struct MeshPaths {
   std::vector<float> length;  ///< `reach` if no seed is nearer
   std::vector<std::uint32_t> seed;
 };
-MeshPaths ShortestPaths(const Neighbours& next, std::span<const glm::vec3> at,
+MeshPaths ShortestPaths(const Neighbours& next, std::span<const glm::vec3> position,
                         std::span<const std::uint32_t> seeds, float reach);
 
 }  // namespace fsm

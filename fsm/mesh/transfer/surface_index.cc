@@ -48,8 +48,10 @@ SurfaceIndex::SurfaceIndex(const WeldedSurface& surface, float reach)
   std::int64_t cells = 0;
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
     const auto& t = surface.triangles[i];
-    const glm::vec3 low = glm::min(surface.at[t[0]], glm::min(surface.at[t[1]], surface.at[t[2]]));
-    const glm::vec3 high = glm::max(surface.at[t[0]], glm::max(surface.at[t[1]], surface.at[t[2]]));
+    const glm::vec3 low =
+        glm::min(surface.position[t[0]], glm::min(surface.position[t[1]], surface.position[t[2]]));
+    const glm::vec3 high =
+        glm::max(surface.position[t[0]], glm::max(surface.position[t[1]], surface.position[t[2]]));
     low_.push_back(low);
     high_.push_back(high);
     const glm::ivec3 a(glm::floor(low / cell_)), b(glm::floor(high / cell_));
@@ -82,7 +84,7 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
   // opposites are penalised, because how clearly a point belongs to a lip, at a corner or within
   // the mouth, differs between heads.
   constexpr float kTurned = 4, kLip = 28, kLid = 18, kHidden = 10;
-  const glm::vec3 p = other.at[vertex], normal = other.normal[vertex];
+  const glm::vec3 p = other.position[vertex], normal = other.normal[vertex];
   constexpr float kMinFacing = 0.15f;
   std::optional<Hit> best;
   float least = reach_ * reach_;
@@ -94,15 +96,15 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
         if (found == cells_.end()) continue;
         for (const std::uint32_t i : found->second) {
           // No point of a triangle is nearer than its bounding box; the margin is for rounding.
-          const glm::vec3 off = glm::max(glm::max(low_[i] - p, p - high_[i]), 0.0f);
-          if (glm::dot(off, off) > 1.001f * least + 1e-6f) continue;
+          const glm::vec3 outside = glm::max(glm::max(low_[i] - p, p - high_[i]), 0.0f);
+          if (glm::dot(outside, outside) > 1.001f * least + 1e-6f) continue;
           const auto& t = surface_.triangles[i];
-          const glm::vec3 part =
-              NearestBarycentric(p, surface_.at[t[0]], surface_.at[t[1]], surface_.at[t[2]]);
+          const glm::vec3 part = NearestBarycentric(
+              p, surface_.position[t[0]], surface_.position[t[1]], surface_.position[t[2]]);
           const auto mix = [&](const auto& v) {
             return v[t[0]] * part.x + v[t[1]] * part.y + v[t[2]] * part.z;
           };
-          const glm::vec3 there = mix(surface_.at);
+          const glm::vec3 there = mix(surface_.position);
           const glm::vec3 d = there - p;
           float cost = glm::dot(d, d);
           if (cost >= least) continue;

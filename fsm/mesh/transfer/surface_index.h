@@ -24,7 +24,7 @@ class SurfaceIndex {
   SurfaceIndex(const WeldedSurface& surface, float reach);
   struct Hit {
     std::uint32_t triangle;
-    glm::vec3 barycentric, at;
+    glm::vec3 barycentric, position;
     float distance_mm;
   };
   /// Returns the point nearest to a vertex of another surface, at most `reach` away. REQUIRES:

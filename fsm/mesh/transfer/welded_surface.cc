@@ -81,80 +81,84 @@ class FrontDepth {
 
 }  // namespace
 
-WeldedSurface::WeldedSurface(std::span<const glm::vec3> position,
+WeldedSurface::WeldedSurface(std::span<const glm::vec3> given_position,
                              std::span<const std::uint32_t> given, bool has_uv_seams) {
   // Preliminary normals distinguish a texture seam, across which the surface continues, from lips
   // that touch.
-  std::vector<glm::vec3> own(position.size(), glm::vec3(0));
+  std::vector<glm::vec3> own(given_position.size(), glm::vec3(0));
   for (std::size_t i = 0; i + 2 < given.size(); i += 3) {
-    const glm::vec3 a = position[given[i]];
-    const glm::vec3 n = glm::cross(position[given[i + 1]] - a, position[given[i + 2]] - a);
+    const glm::vec3 a = given_position[given[i]];
+    const glm::vec3 n =
+        glm::cross(given_position[given[i + 1]] - a, given_position[given[i + 2]] - a);
     for (std::size_t k = 0; k < 3; ++k) own[given[i + k]] += n;
   }
-  welded_of.assign(position.size(), kNone);
+  welded_of.assign(given_position.size(), kNone);
   std::map<std::tuple<long, long, long>, std::vector<std::uint32_t>> there;
   const auto weld = [&](std::uint32_t v) {
     if (welded_of[v] != kNone) return welded_of[v];
     const auto key = [](float x) { return std::lround(x * 200); };
-    const glm::vec3 p = position[v];
+    const glm::vec3 p = given_position[v];
     const glm::vec3 n = own[v] / std::max(glm::length(own[v]), 1e-12f);
     auto& same = there[{key(p.x), key(p.y), key(p.z)}];
     for (const std::uint32_t w : has_uv_seams ? same : std::vector<std::uint32_t>()) {
       const glm::vec3 m = own[given_of[w]] / std::max(glm::length(own[given_of[w]]), 1e-12f);
       if (glm::dot(n, m) > 0.9f) return welded_of[v] = w;
     }
-    at.push_back(p);
+    position.push_back(p);
     given_of.push_back(v);
-    same.push_back(static_cast<std::uint32_t>(at.size() - 1));
+    same.push_back(static_cast<std::uint32_t>(position.size() - 1));
     return welded_of[v] = same.back();
   };
   for (std::size_t i = 0; i + 2 < given.size(); i += 3) {
     const std::array<std::uint32_t, 3> t{weld(given[i]), weld(given[i + 1]), weld(given[i + 2])};
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
   }
-  neighbours = NeighboursAlongEdges(at.size(), triangles);
-  lip.assign(at.size(), 0);
-  lid.assign(at.size(), 0);
+  neighbours = NeighboursAlongEdges(position.size(), triangles);
+  lip.assign(position.size(), 0);
+  lid.assign(position.size(), 0);
   FindNormals();
 }
 
 void WeldedSurface::FindNormals() {
-  normal.assign(at.size(), glm::vec3(0));
+  normal.assign(position.size(), glm::vec3(0));
   for (const auto& t : triangles) {
-    const glm::vec3 n = glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]);
+    const glm::vec3 n =
+        glm::cross(position[t[1]] - position[t[0]], position[t[2]] - position[t[0]]);
     for (const std::uint32_t v : t) normal[v] += n;
   }
   for (glm::vec3& n : normal) n /= std::max(glm::length(n), 1e-12f);
 }
 
-void WeldedSurface::FindVisibility(std::span<const glm::vec3> position,
+void WeldedSurface::FindVisibility(std::span<const glm::vec3> given_position,
                                    std::span<const std::uint32_t> eyes) {
   constexpr float kClear = 0.5f, kBehind = 3;  // millimetres
-  FrontDepth front(at);
-  for (const auto& t : triangles) front.Rasterize(at[t[0]], at[t[1]], at[t[2]]);
+  FrontDepth front(position);
+  for (const auto& t : triangles) front.Rasterize(position[t[0]], position[t[1]], position[t[2]]);
   for (std::size_t k = 0; k + 2 < eyes.size(); k += 3) {
-    front.Rasterize(position[eyes[k]], position[eyes[k + 1]], position[eyes[k + 2]]);
+    front.Rasterize(given_position[eyes[k]], given_position[eyes[k + 1]],
+                    given_position[eyes[k + 2]]);
   }
-  visibility.resize(at.size());
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    visibility[i] = SmoothStep(kBehind, kClear, front.LeastAround(at[i]) - at[i].z);
+  visibility.resize(position.size());
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    visibility[i] = SmoothStep(kBehind, kClear, front.LeastAround(position[i]) - position[i].z);
   }
 }
 
 float WeldedSurface::MeanEdge(std::size_t vertex) const {
   float sum = 0;
-  for (const std::uint32_t n : neighbours[vertex]) sum += glm::distance(at[vertex], at[n]);
+  for (const std::uint32_t n : neighbours[vertex])
+    sum += glm::distance(position[vertex], position[n]);
   return sum / std::max(static_cast<float>(neighbours[vertex].size()), 1.0f);
 }
 
 std::uint32_t WeldedSurface::Nearest(glm::vec3 p) const {
   std::uint32_t best = 0;
   float least = 1e30f;
-  for (std::uint32_t i = 0; i < at.size(); ++i) {
-    const glm::vec3 d = at[i] - p;
-    const float far = glm::dot(d, d);
-    if (far < least) {
-      least = far;
+  for (std::uint32_t i = 0; i < position.size(); ++i) {
+    const glm::vec3 d = position[i] - p;
+    const float distance2 = glm::dot(d, d);
+    if (distance2 < least) {
+      least = distance2;
       best = i;
     }
   }
@@ -165,7 +169,7 @@ std::vector<float> WeldedSurface::DistancesFrom(std::span<const glm::vec3> seeds
                                                 float reach) const {
   std::vector<std::uint32_t> from;
   for (const glm::vec3& seed : seeds) from.push_back(Nearest(seed));
-  return ShortestPaths(neighbours, at, from, reach).length;
+  return ShortestPaths(neighbours, position, from, reach).length;
 }
 
 }  // namespace fsm

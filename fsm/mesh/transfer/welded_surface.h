@@ -15,10 +15,10 @@ namespace fsm {
 class WeldedSurface {
  public:
   /// `has_uv_seams`: whether to merge vertices at the same position whose normals agree.
-  WeldedSurface(std::span<const glm::vec3> position, std::span<const std::uint32_t> triangles,
+  WeldedSurface(std::span<const glm::vec3> given_position, std::span<const std::uint32_t> triangles,
                 bool has_uv_seams);
 
-  std::vector<glm::vec3> at, normal;
+  std::vector<glm::vec3> position, normal;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Neighbours neighbours;
   std::vector<std::uint32_t> welded_of;  ///< given vertex -> welded one; kNone: in no triangle
@@ -31,12 +31,13 @@ class WeldedSurface {
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
   void FindNormals();
-  /// Computes `visibility`. `eyes`: triangles of the eyeballs, indices into `position`, which hide
-  /// what is behind them. A triangle whose bounding box covers more than a square metre hides
+  /// Computes `visibility`. `eyes`: triangles of the eyeballs, indices into `given_position`, which
+  /// hide what is behind them. A triangle whose bounding box covers more than a square metre hides
   /// nothing. Throws std::runtime_error if the boxes together cover more than kMaxCovered, as
   /// hundreds of layers of triangles would. REQUIRES: everything is within kMaxReach.
   static constexpr std::int64_t kMaxCovered = 1 << 28;  ///< square millimetres
-  void FindVisibility(std::span<const glm::vec3> position, std::span<const std::uint32_t> eyes);
+  void FindVisibility(std::span<const glm::vec3> given_position,
+                      std::span<const std::uint32_t> eyes);
   /// Returns the mean length of the edges of a vertex; 0 if it has none.
   float MeanEdge(std::size_t vertex) const;
   std::uint32_t Nearest(glm::vec3 p) const;

@@ -44,7 +44,7 @@ DominanceCurves::DominanceCurves(const VisemeTargets& targets, const DominanceRe
   rest.start_ms = -kForever;
   sounds_.push_back({rest, 0, {}});
   longest_reach_ms_ = std::max(reach.before_ms, reach.after_ms);
-  for (const VisemeTarget& target : targets.all) {
+  for (const VisemeTarget& target : targets.targets) {
     sounds_.push_back({target, target.start_ms + target.length_ms, {}});
     longest_reach_ms_ = std::max(longest_reach_ms_, target.dominance.early_ms);
   }

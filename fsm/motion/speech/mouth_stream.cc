@@ -10,18 +10,18 @@ namespace fsm {
 
 vm::Time MouthStream::FadedAt(const Frame& last) {
   const vm::Time mouth = kHold + kMouthCloses + kMouthFadeOut;
-  return last.at + (last.head ? std::max(mouth, kHeadReturns) : mouth);
+  return last.time + (last.head ? std::max(mouth, kHeadReturns) : mouth);
 }
 
 vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& pose,
                                   const std::optional<StreamHead>& head) {
   while (frames_.size() > 1 && FadedAt(frames_[1]) < now) frames_.pop_front();
-  while (!frames_.empty() && frames_.back().at >= at) frames_.pop_back();
+  while (!frames_.empty() && frames_.back().time >= at) frames_.pop_back();
   if (frames_.size() >= kMaxFrames) {
     return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMaxFrames) +
                                           " frames of the mouth wait for their time");
   }
-  const bool follows = !frames_.empty() && at - frames_.back().at <= kMaxGap;
+  const bool follows = !frames_.empty() && at - frames_.back().time <= kMaxGap;
   frames_.push_back({at, follows ? frames_.back().run_start : at, pose, head});
   return {};
 }
@@ -29,38 +29,38 @@ vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& po
 void MouthStream::Stop(vm::Time now) {
   const SpokenMouth mouth = MouthAt(now);
   const WeightedHead head = HeadAt(now);
-  const bool cut = !frames_.empty() && frames_.back().at > now;
-  while (!frames_.empty() && frames_.back().at > now) frames_.pop_back();
-  // Without this frame it would go back to the last one before holding there, or jump to rest where
-  // a run was about to take it over.
+  const bool cut = !frames_.empty() && frames_.back().time > now;
+  while (!frames_.empty() && frames_.back().time > now) frames_.pop_back();
+  // Without this frame the mouth would go back to the last frame before it holds, or jump to rest
+  // where a new run was fading in.
   if ((cut ? mouth.weight > 0 : mouth.weight == 1) &&
-      (frames_.empty() || frames_.back().at < now)) {
+      (frames_.empty() || frames_.back().time < now)) {
     frames_.push_back({now, frames_.empty() ? now : frames_.back().run_start, mouth.pose,
                        head.weight > 0 ? std::optional(head.pose) : std::nullopt, mouth.weight});
   }
 }
 
-template <typename OfFrame, typename AfterLast>
-auto MouthStream::At(vm::Time t, const OfFrame& of_frame, const AfterLast& after_last) const {
-  decltype(of_frame(frames_.front())) value;
-  const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
+template <typename Value, typename OfFrame, typename AfterLast>
+Value MouthStream::At(vm::Time t, const OfFrame& of_frame, const AfterLast& after_last) const {
+  Value value;
+  const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::time);
   if (next != frames_.begin()) {
     const Frame& last = *(next - 1);
-    if (next != frames_.end() && next->run_start != next->at) {
-      return Mix(of_frame(last), of_frame(*next), Progress(t, last.at, next->at - last.at));
+    if (next != frames_.end() && next->run_start != next->time) {
+      return Mix(of_frame(last), of_frame(*next), Progress(t, last.time, next->time - last.time));
     }
     value = after_last(last);
   }
   if (next == frames_.end()) return value;
   // The next run may be fading in.
   return Mix(value, of_frame(*next),
-             SmoothStep(Progress(t, next->at - kMouthFadeIn, kMouthFadeIn)));
+             SmoothStep(Progress(t, next->time - kMouthFadeIn, kMouthFadeIn)));
 }
 
 SpokenMouth MouthStream::MouthAt(vm::Time t) const {
   const auto of_frame = [](const Frame& frame) { return SpokenMouth{frame.weight, frame.pose}; };
-  return At(t, of_frame, [t](const Frame& last) -> SpokenMouth {
-    const vm::Time closes = last.at + kHold;
+  return At<SpokenMouth>(t, of_frame, [t](const Frame& last) -> SpokenMouth {
+    const vm::Time closes = last.time + kHold;
     return {last.weight * (1 - SmoothStep(Progress(t, closes + kMouthCloses, kMouthFadeOut))),
             Mix(last.pose, ClosedMouth(), SmoothStep(Progress(t, closes, kMouthCloses)))};
   });
@@ -70,8 +70,8 @@ MouthStream::WeightedHead MouthStream::HeadAt(vm::Time t) const {
   const auto of_frame = [](const Frame& frame) -> WeightedHead {
     return {frame.head ? frame.weight : 0.0, frame.head.value_or(StreamHead{})};
   };
-  return At(t, of_frame, [&](const Frame& last) {
-    return Mix(of_frame(last), {}, SmoothStep(Progress(t, last.at, kHeadReturns)));
+  return At<WeightedHead>(t, of_frame, [&](const Frame& last) {
+    return Mix(of_frame(last), {}, SmoothStep(Progress(t, last.time, kHeadReturns)));
   });
 }
 
@@ -96,10 +96,10 @@ void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
 }
 
 std::optional<vm::Time> MouthStream::NextMotion(vm::Time t) const {
-  const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
+  const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::time);
   if (next != frames_.begin() && t < FadedAt(*(next - 1))) return t;
   if (next == frames_.end()) return std::nullopt;
-  return std::max(t, next->at - kMouthFadeIn);
+  return std::max(t, next->time - kMouthFadeIn);
 }
 
 vm::Time MouthStream::EndsAt(vm::Time t) const {

@@ -58,7 +58,7 @@ class MouthStream : public MotionSource {
 
  private:
   struct Frame {
-    vm::Time at;
+    vm::Time time;
     vm::Time run_start;
     MouthPose pose;
     std::optional<StreamHead> head;
@@ -72,15 +72,15 @@ class MouthStream : public MotionSource {
     }
   };
   /// Returns a value at `t`, given that of a frame and how it fades after the last frame of a run.
-  template <typename OfFrame, typename AfterLast>
-  auto At(vm::Time t, const OfFrame& of_frame, const AfterLast& after_last) const;
+  template <typename Value, typename OfFrame, typename AfterLast>
+  Value At(vm::Time t, const OfFrame& of_frame, const AfterLast& after_last) const;
   SpokenMouth MouthAt(vm::Time t) const;
   WeightedHead HeadAt(vm::Time t) const;
   static vm::Time FadedAt(const Frame& last);
 
   vm::Time start_{0};
   const Track<float>& mouth_scale_;
-  std::deque<Frame> frames_;  // by `at`
+  std::deque<Frame> frames_;  // by `time`
 };
 
 }  // namespace fsm

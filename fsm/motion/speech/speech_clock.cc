@@ -14,9 +14,9 @@ constexpr int kLateReports = 3;
 }  // namespace
 
 double SpeechClock::CorrectionAt(vm::Time t) const {
-  const double way = to_ms_ - from_ms_;
-  const double done = std::min(std::abs(way), rate_ * std::max(0.0, InMs(t - since_)));
-  return from_ms_ + std::copysign(done, way);
+  const double distance_ms = to_ms_ - from_ms_;
+  const double done = std::min(std::abs(distance_ms), rate_ * std::max(0.0, InMs(t - since_)));
+  return from_ms_ + std::copysign(done, distance_ms);
 }
 
 double SpeechClock::PositionAt(vm::Time t) const { return InMs(t - start_) + CorrectionAt(t); }
@@ -44,9 +44,9 @@ void SpeechClock::Correct(vm::Time now, double voice_ms, double max_rate) {
 vm::Time SpeechClock::WhenAt(double position_ms) const {
   const double at_since = PositionAt(since_);
   if (position_ms <= at_since) return start_ + FromMs(position_ms - from_ms_);
-  const double way = to_ms_ - from_ms_;
-  const double speed = 1 + std::copysign(rate_, way);
-  const double slewing_ms = std::abs(way) / rate_;
+  const double distance_ms = to_ms_ - from_ms_;
+  const double speed = 1 + std::copysign(rate_, distance_ms);
+  const double slewing_ms = std::abs(distance_ms) / rate_;
   const double within = (position_ms - at_since) / speed;
   if (within < slewing_ms) return since_ + FromMs(within);
   return start_ + FromMs(position_ms - to_ms_);

@@ -24,7 +24,7 @@ SpeechGestures::SpeechGestures(const VisemeTargets& targets, const GestureNumber
     : seed_(seed), length_ms_(targets.length_ms), sizes_(sizes) {
   FindBeats(targets);
   bool pause = true;
-  for (const VisemeTarget& target : targets.all) {
+  for (const VisemeTarget& target : targets.targets) {
     if (target.pause) {
       pause = pause || target.length_ms >= kPhrasePauseMs;
       continue;
@@ -43,14 +43,14 @@ SpeechGestures::SpeechGestures(const VisemeTargets& targets, const GestureNumber
 void SpeechGestures::FindBeats(const VisemeTargets& targets) {
   double sum = 0;
   double count = 0;
-  for (const VisemeTarget& target : targets.all) {
+  for (const VisemeTarget& target : targets.targets) {
     if (!target.dominance.vowel) continue;
     sum += target.length_ms;
     ++count;
   }
   if (count == 0) return;
   const double mean = sum / count;
-  for (const VisemeTarget& target : targets.all) {
+  for (const VisemeTarget& target : targets.targets) {
     if (!target.dominance.vowel) continue;
     const double open =
         std::clamp(target.pose.mouth[kJawY] / double{sizes_.vowel.open_jaw_deg}, 0.0, 1.0);

@@ -25,25 +25,25 @@ SpeechMotion::SpeechMotion(const MotionInputs& in)
       switches_(in.switches),
       seed_(in.seed) {}
 
-double SpeechMotion::MouthPosition(const Utterance& one, vm::Time t) const {
-  return one.clock.PositionAt(t) + lead_ms_.At(t);
+double SpeechMotion::MouthPosition(const Utterance& utterance, vm::Time t) const {
+  return utterance.clock.PositionAt(t) + lead_ms_.At(t);
 }
 
-vm::Time SpeechMotion::EndOf(const Utterance& one) const {
+vm::Time SpeechMotion::EndOf(const Utterance& utterance) const {
   // The end of the voice, or of the mouth if offset_ms makes that later.
-  const double lead = lead_ms_.At(one.clock.WhenAt(one.track->length_ms()));
-  return one.clock.WhenAt(one.track->length_ms() + std::max(0.0, -lead));
+  const double lead = lead_ms_.At(utterance.clock.WhenAt(utterance.track->length_ms()));
+  return utterance.clock.WhenAt(utterance.track->length_ms() + std::max(0.0, -lead));
 }
 
-vm::Time SpeechMotion::FadedAt(const Utterance& one) const {
-  return (one.stopped ? *one.stopped + kClosedFor : EndOf(one)) +
+vm::Time SpeechMotion::FadedAt(const Utterance& utterance) const {
+  return (utterance.stopped ? *utterance.stopped + kClosedFor : EndOf(utterance)) +
          std::max(kMouthFadeOut, kHeadReturns);
 }
 
 void SpeechMotion::Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start,
                          std::string_view text) {
   Stop(now);
-  std::erase_if(utterances_, [&](const Utterance& one) { return FadedAt(one) <= now; });
+  std::erase_if(utterances_, [&](const Utterance& utterance) { return FadedAt(utterance) <= now; });
   auto track = std::make_shared<const VisemeTrack>(phonemes, tables_, settings_.lips);
   const std::uint64_t seed = Scramble(seed_ + static_cast<std::uint64_t>(++utterance_count_));
   SpeechGestures gestures(track->targets(), tables_.gestures, seed);
@@ -65,24 +65,24 @@ void SpeechMotion::Sync(vm::Time now, double voice_ms) {
 }
 
 void SpeechMotion::MoveLead(vm::Time now, double lead_ms) {
-  const double way = std::abs(lead_ms - lead_ms_.At(now));
+  const double change = std::abs(lead_ms - lead_ms_.At(now));
   lead_ms_.MoveTo(now, static_cast<float>(lead_ms),
-                  active() ? FromMs(way * kMsPerLeadMs) : vm::Time(0));
+                  active() ? FromMs(change * kMsPerLeadMs) : vm::Time(0));
 }
 
 SpeechMotion::Mouth SpeechMotion::MouthAt(vm::Time t) const {
   Mouth mouth;
-  for (const Utterance& one : utterances_) {
-    const vm::Time release = one.stopped ? *one.stopped + kClosedFor : EndOf(one);
+  for (const Utterance& utterance : utterances_) {
+    const vm::Time release = utterance.stopped ? *utterance.stopped + kClosedFor : EndOf(utterance);
     const double remaining = 1 - SmoothStep(Progress(t, release, kMouthFadeOut));
-    const double share = SmoothStep(Progress(t, one.begin, kMouthFadeIn)) * remaining;
+    const double share = SmoothStep(Progress(t, utterance.begin, kMouthFadeIn)) * remaining;
     if (share <= 0) continue;
-    MouthPose pose = one.track->At(MouthPosition(one, t));
-    if (one.stopped) {
-      pose = Mix(pose, ClosedMouth(), SmoothStep(Progress(t, *one.stopped, kMouthCloses)));
+    MouthPose pose = utterance.track->At(MouthPosition(utterance, t));
+    if (utterance.stopped) {
+      pose = Mix(pose, ClosedMouth(), SmoothStep(Progress(t, *utterance.stopped, kMouthCloses)));
     }
     mouth.BlendOver(pose, share);
-    const double reduction = SmoothStep(Progress(t, one.begin, kEmotionFade)) * remaining;
+    const double reduction = SmoothStep(Progress(t, utterance.begin, kEmotionFade)) * remaining;
     mouth.emotion_reduction = 1 - (1 - mouth.emotion_reduction) * (1 - reduction);
   }
   return mouth;
@@ -90,9 +90,9 @@ SpeechMotion::Mouth SpeechMotion::MouthAt(vm::Time t) const {
 
 // ---- gestures
 
-double SpeechMotion::GesturesOf(const Utterance& one, vm::Time t) const {
-  if (t < one.begin || t >= FadedAt(one)) return 0;
-  return one.stopped ? 1 - SmoothStep(Progress(t, *one.stopped, kHeadStops)) : 1;
+double SpeechMotion::GesturesOf(const Utterance& utterance, vm::Time t) const {
+  if (t < utterance.begin || t >= FadedAt(utterance)) return 0;
+  return utterance.stopped ? 1 - SmoothStep(Progress(t, *utterance.stopped, kHeadStops)) : 1;
 }
 
 void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
@@ -105,10 +105,10 @@ void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
     size.brow += run.weight * pattern.brow;
   }
   double brow = 0;
-  for (const Utterance& one : utterances_) {
-    const double remaining = GesturesOf(one, t);
+  for (const Utterance& utterance : utterances_) {
+    const double remaining = GesturesOf(utterance, t);
     if (remaining <= 0) continue;
-    const SpeechGestures::HeadGesture head = one.gestures.HeadAt(MouthPosition(one, t));
+    const SpeechGestures::HeadGesture head = utterance.gestures.HeadAt(MouthPosition(utterance, t));
     layer.head_rotation[kDown] += static_cast<float>(remaining * size.nod * head.nod);
     layer.head_rotation[kToRight] += static_cast<float>(remaining * size.turn * head.turn);
     layer.head_rotation[kTilted] += static_cast<float>(remaining * size.tilt * head.tilt);
@@ -125,12 +125,12 @@ void SpeechMotion::ShowLooks(vm::Time t, MotionLayer& layer) const {
   for (const IdleRun& run : switches_[IdleKind::kText].runs.At(t)) {
     size += PatternAt(tables_.motions.auto_texts, run.pattern).size * run.weight;
   }
-  for (const Utterance& one : utterances_) {
-    const double remaining = size * GesturesOf(one, t);
+  for (const Utterance& utterance : utterances_) {
+    const double remaining = size * GesturesOf(utterance, t);
     if (remaining <= 0) continue;
-    for (const TimedLook& timed : one.looks) {
+    for (const TimedLook& timed : utterance.looks) {
       const auto weight =
-          static_cast<float>(remaining * timed.At(MouthPosition(one, t), tables_.gestures));
+          static_cast<float>(remaining * timed.At(MouthPosition(utterance, t), tables_.gestures));
       if (weight <= 0) continue;
       AddTo(layer.look, timed.shown->look, weight);
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -143,10 +143,11 @@ void SpeechMotion::ShowLooks(vm::Time t, MotionLayer& layer) const {
 void SpeechMotion::AvertEyes(vm::Time t, MotionLayer& layer) const {
   for (const IdleRun& run : switches_[IdleKind::kAvert].runs.At(t)) {
     const AutoAvert& avert = PatternAt(tables_.motions.auto_averts, run.pattern);
-    for (const Utterance& one : utterances_) {
-      const double remaining = avert.angle * run.weight * GesturesOf(one, t);
+    for (const Utterance& utterance : utterances_) {
+      const double remaining = avert.angle * run.weight * GesturesOf(utterance, t);
       if (remaining == 0) continue;
-      const auto away = one.gestures.AvertedGazeAt(MouthPosition(one, t), avert.shortest_ms);
+      const auto away =
+          utterance.gestures.AvertedGazeAt(MouthPosition(utterance, t), avert.shortest_ms);
       for (std::size_t i = 0; i < 2; ++i) {
         layer.look.gaze.left[i] += static_cast<float>(remaining * away[i]);
       }
@@ -204,9 +205,9 @@ std::optional<vm::Time> SpeechMotion::End() const {
 
 double SpeechMotion::VoicePositionAt(vm::Time t) const {
   if (utterances_.empty()) return 0;
-  const Utterance& one = utterances_.back();
-  const double position = one.clock.PositionAt(std::min(t, one.stopped.value_or(t)));
-  return std::clamp(position, 0.0, one.track->length_ms());
+  const Utterance& utterance = utterances_.back();
+  const double position = utterance.clock.PositionAt(std::min(t, utterance.stopped.value_or(t)));
+  return std::clamp(position, 0.0, utterance.track->length_ms());
 }
 
 const std::string& SpeechMotion::PhonemeAt(vm::Time t) const {
@@ -217,9 +218,9 @@ const std::string& SpeechMotion::PhonemeAt(vm::Time t) const {
 
 std::optional<vm::Time> SpeechMotion::NextMotion(vm::Time t) const {
   std::optional<vm::Time> next = mouth_scale_.NextMotion(t);
-  for (const Utterance& one : utterances_) {
-    if (t >= FadedAt(one)) continue;
-    next = Earlier(next, std::max(t, one.begin));
+  for (const Utterance& utterance : utterances_) {
+    if (t >= FadedAt(utterance)) continue;
+    next = Earlier(next, std::max(t, utterance.begin));
   }
   return next;
 }

@@ -74,10 +74,10 @@ class SpeechMotion : public MotionSource {
   double BlinkAt(vm::Time t) const;
   /// Returns the remaining weight of an utterance's gestures, which fade once it is stopped; 0
   /// outside it.
-  double GesturesOf(const Utterance& one, vm::Time t) const;
-  vm::Time EndOf(const Utterance& one) const;
-  vm::Time FadedAt(const Utterance& one) const;
-  double MouthPosition(const Utterance& one, vm::Time t) const;
+  double GesturesOf(const Utterance& utterance, vm::Time t) const;
+  vm::Time EndOf(const Utterance& utterance) const;
+  vm::Time FadedAt(const Utterance& utterance) const;
+  double MouthPosition(const Utterance& utterance, vm::Time t) const;
 
   const MotionTables& tables_;
   const MotionSettings& settings_;

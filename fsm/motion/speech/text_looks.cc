@@ -74,8 +74,8 @@ double Letters(std::string_view text) {
 double TimeOfShare(double share, const VisemeTargets& targets, double near_ms) {
   if (share >= 1) return targets.length_ms;
   double spoken = 0, passed = 0, at = targets.length_ms;
-  for (const VisemeTarget& target : targets.all) spoken += target.pause ? 0 : target.length_ms;
-  for (const VisemeTarget& target : targets.all) {
+  for (const VisemeTarget& target : targets.targets) spoken += target.pause ? 0 : target.length_ms;
+  for (const VisemeTarget& target : targets.targets) {
     if (target.pause) continue;
     passed += target.length_ms;
     if (passed < share * spoken) continue;
@@ -83,7 +83,7 @@ double TimeOfShare(double share, const VisemeTargets& targets, double near_ms) {
     break;
   }
   double nearest = near_ms, found = at;
-  for (const VisemeTarget& target : targets.all) {
+  for (const VisemeTarget& target : targets.targets) {
     if (!target.pause || target.length_ms < kPhrasePauseMs) continue;
     if (std::abs(target.start_ms - at) < nearest) {
       nearest = std::abs(target.start_ms - at);

@@ -95,8 +95,9 @@ VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTab
     const auto index = static_cast<std::size_t>(timed.phase.viseme);
     const Viseme& viseme = set.visemes[index];
     const bool pause = index == set.rest;
-    out.all.push_back({timed.start_ms, timed.length_ms, Scaled(viseme, timed.phase.strength, style),
-                       HoldOf(timed, viseme.hold, pause), viseme.dominance, pause});
+    out.targets.push_back({timed.start_ms, timed.length_ms,
+                           Scaled(viseme, timed.phase.strength, style),
+                           HoldOf(timed, viseme.hold, pause), viseme.dominance, pause});
   }
   return out;
 }

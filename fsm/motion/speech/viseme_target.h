@@ -23,7 +23,7 @@ struct VisemeTarget {
 
 /// The viseme targets of an utterance.
 struct VisemeTargets {
-  std::vector<VisemeTarget> all;  ///< in order of time, none of length 0
+  std::vector<VisemeTarget> targets;  ///< in order of time, none of length 0
   MouthPose rest;
   Dominance rest_dominance;
   double length_ms = 0;

@@ -25,7 +25,7 @@ VisemeTrack::VisemeTrack(const vm::PhonemeList& phonemes, const MotionTables& ta
 
 void VisemeTrack::MakeKeys() {
   keys_.push_back({-kTransitionMs, targets_.rest});
-  for (const VisemeTarget& target : targets_.all) {
+  for (const VisemeTarget& target : targets_.targets) {
     keys_.push_back({target.start_ms, target.pose});
     if (target.hold_ms > 0) keys_.push_back({target.start_ms + target.hold_ms, target.pose});
   }

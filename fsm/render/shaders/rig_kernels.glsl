@@ -36,7 +36,7 @@ void Apply(uint record) {
   ListRecord list = records[record];
   vec3 p = Position(list.vertex);
   for (uint i = list.from; i < list.to; ++i)
-    p += strengths[Face() * uint(channel_count) + entries[i].channel] * Vec(entries[i].by);
+    p += strengths[Face() * uint(channel_count) + entries[i].channel] * Vec(entries[i].offset);
   SetPosition(list.vertex, p);
 }
 #endif
@@ -46,8 +46,8 @@ RECORDS(LidRecord);
 void Apply(uint record) {
   LidRecord lid = records[record];
   Eye eye = states[Face()].eyes[lid.side];
-  vec3 p = WithLids(lid.at, eye, Position(lid.vertex));
-  SetPosition(lid.vertex, lid.proper != 0u ? OverCornea(eye, p) : p);
+  vec3 p = WithLids(lid.point, eye, Position(lid.vertex));
+  SetPosition(lid.vertex, lid.is_lid != 0u ? OverCornea(eye, p) : p);
 }
 #endif
 

@@ -210,7 +210,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
       const glm::vec2 shown = fit.head.pose.PixelOf(fitted);
       error.shown += glm::distance(camera.PixelOf(points[named.point]), shown) / eyes /
                      static_cast<float>(std::size(kNamed));
-      pairs.push_back({points[named.point], fitted, fsm::LipOrLid::kPlain});
+      pairs.push_back({points[named.point], fitted, fsm::FaceFeature::kNone});
     }
     const fsm::Similarity over = fsm::FitSimilarity(pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) error.off[i] = over(pairs[i].to) - pairs[i].from;

@@ -50,7 +50,7 @@ TEST_F(FitTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
   for (std::size_t i = 0; i < fit.constraints.size(); ++i) {
     // The line between the lips is laid along the mouth without regard to the turn of the head.
     const float most_mm = fit.constraints[i].point ? 1 : 1.8F;
-    EXPECT_LT(glm::length(fit.head.warp_points[i].by), most_mm);
+    EXPECT_LT(glm::length(fit.head.warp_points[i].displacement), most_mm);
   }
 }
 
@@ -71,7 +71,8 @@ TEST_F(FitTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   const FoundFace face = DetectedOf(base.mesh_points(), vertices.position);
   const auto most = [](const FaceFit& fit) {
     float far = 0;
-    for (const auto& point : fit.head.warp_points) far = std::max(far, glm::length(point.by));
+    for (const auto& point : fit.head.warp_points)
+      far = std::max(far, glm::length(point.displacement));
     return far;
   };
   const FaceFit fit = FitFace(moved, face, EvenGreyImage(800));

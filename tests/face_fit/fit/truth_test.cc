@@ -140,7 +140,7 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
 std::vector<fsm::PointPair> Compared(const fsm::Head& truth, const fsm::Head& fitted) {
   std::vector<fsm::PointPair> pairs;
   for (const char* place : kPlaces) {
-    pairs.push_back({truth.Landmark(place), fitted.Landmark(place), fsm::LipOrLid::kPlain});
+    pairs.push_back({truth.Landmark(place), fitted.Landmark(place), fsm::FaceFeature::kNone});
   }
   const fsm::Similarity over = fsm::FitSimilarity(pairs);
   for (auto& pair : pairs) pair.to = over(pair.to);
@@ -191,7 +191,7 @@ float DepthError(const Profile& truth, const FaceFit& fit) {
   std::vector<fsm::PointPair> pairs;
   const auto fitted = HeadOf(fit);
   for (const char* place : kPlaces) {
-    pairs.push_back({truth.Landmark(place), fitted->Landmark(place), fsm::LipOrLid::kPlain});
+    pairs.push_back({truth.Landmark(place), fitted->Landmark(place), fsm::FaceFeature::kNone});
   }
   const fsm::Similarity over = fsm::FitSimilarity(pairs);
   float sum = 0;

@@ -157,10 +157,10 @@ TEST_F(HeadFinderTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
   for (const char* name : {"ict", "makehuman"}) {
     const Subject& subject = Of(name);
     const auto pairs = subject.pairs;
-    const auto mean = [&](const std::vector<glm::vec3>& position, fsm::LipOrLid part) {
+    const auto mean = [&](const std::vector<glm::vec3>& position, fsm::FaceFeature part) {
       float y = 0, count = 0;
       for (const auto& pair : pairs) {
-        if (pair.on != part) continue;
+        if (pair.feature != part) continue;
         std::size_t nearest = 0;
         float least = 1e9F;
         for (const std::uint32_t v : subject.flesh) {
@@ -182,13 +182,13 @@ TEST_F(HeadFinderTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
     fsm::FaceState state;
     state.au.left[27] = state.au.right[27] = 1;
     head->Evaluate(state, moved);
-    EXPECT_LT(mean(moved.position, fsm::LipOrLid::kLowerLip), -15) << name;
-    EXPECT_GT(mean(moved.position, fsm::LipOrLid::kUpperLip), -8) << name;
+    EXPECT_LT(mean(moved.position, fsm::FaceFeature::kLowerLip), -15) << name;
+    EXPECT_GT(mean(moved.position, fsm::FaceFeature::kUpperLip), -8) << name;
     state = {};
     state.blink.left = state.blink.right = 1;
     head->Evaluate(state, moved);
-    EXPECT_LT(mean(moved.position, fsm::LipOrLid::kUpperLid), -2.5F) << name;
-    EXPECT_GT(mean(moved.position, fsm::LipOrLid::kLowerLid), -2) << name;
+    EXPECT_LT(mean(moved.position, fsm::FaceFeature::kUpperLid), -2.5F) << name;
+    EXPECT_GT(mean(moved.position, fsm::FaceFeature::kLowerLid), -2) << name;
   }
 }
 

@@ -23,7 +23,7 @@ struct Faces {
         const float x = 6 + 11 * static_cast<float>(column);
         for (const float side : {-1.0F, 1.0F}) {
           const glm::vec3 p(side * x, y, 90 - 0.012F * (x * x + 0.3F * y * y));
-          pairs.push_back({p, 0.01F * (turn * p) + glm::vec3(1, 2, 3), fsm::LipOrLid::kPlain});
+          pairs.push_back({p, 0.01F * (turn * p) + glm::vec3(1, 2, 3), fsm::FaceFeature::kNone});
         }
       }
     }
