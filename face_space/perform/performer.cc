@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "fsm/base/random.h"
+#include "fsm/rig/unit_combiner.h"
 
 namespace facespace {
 namespace {
@@ -191,7 +192,8 @@ std::vector<std::string> PaperUnits() {
 
 std::vector<std::vector<Label>> Mixtures(const std::vector<std::string>& units, std::size_t count,
                                          const fsm::Head& head, bool apart, std::uint64_t seed) {
-  const fsm::UnitTable& table = head.rig().data().units;
+  const fsm::RigData& rig = head.rig().data();
+  const fsm::UnitCombiner combiner(rig.units, rig.asymmetry_seed);
   std::vector<std::vector<Label>> out;
   std::set<std::set<std::string>> seen;
   const auto draw = [seed](std::uint64_t stream, std::int64_t i, std::size_t below) {
@@ -206,7 +208,7 @@ std::vector<std::vector<Label>> Mixtures(const std::vector<std::string>& units, 
     }
     std::vector<Label> mixture;
     for (const std::string& unit : chosen) mixture.push_back({unit, 1});
-    const auto acting = table.ActingUnits(StateOf(mixture));
+    const auto acting = combiner.ActingUnits(StateOf(mixture));
     const bool whole = std::ranges::all_of(
         mixture, [&](const Label& label) { return acting.left[std::stoul(label.unit)] > 0.999F; });
     if (apart && !whole) continue;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "fsm/base/table_reader.h"
+#include "fsm/rig/unit_effects.h"
 
 namespace facespace {
 namespace {
@@ -154,8 +155,8 @@ void RowFitter::AddCandidates(Acting acting) {
           for (const fsm::Side side : fsm::kSides) {
             if (acting == Acting::kLeftOnly && side != fsm::Side::kLeft) continue;
             if (acting == Acting::kRightOnly && side != fsm::Side::kRight) continue;
-            moved += fsm::UnitTable::FieldDisplacement(
-                candidate.field, weights[vertices_[static_cast<std::size_t>(m)]], side);
+            moved += fsm::FieldDisplacement(candidate.field,
+                                            weights[vertices_[static_cast<std::size_t>(m)]], side);
           }
           candidate.along_x[m] = static_cast<double>(moved.x);
           candidate.along_yz[m] = static_cast<double>(moved.y);

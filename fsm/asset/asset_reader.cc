@@ -219,7 +219,6 @@ HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   read("view", asset.view);
   asset.rig.units = vm::OrThrow(ReadTable("rig.unit_effects", JsonText(from["rig"], "unit_effects"),
                                           [](const Table& table) { return UnitTable(table); }));
-  if (asset.rig.asymmetry_seed) asset.rig.units.MakeAsymmetric(*asset.rig.asymmetry_seed);
   vm::OrThrow(CheckAsset(asset));
   return asset;
 }

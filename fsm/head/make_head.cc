@@ -175,10 +175,7 @@ RigData RigOf(const HeadSources& from, const BaseSkin& skin, const FormedHead& h
   for (const BakeWeights& vertex : head.mesh.weights) rig.weights.push_back(vertex.skin);
   rig.units = BuiltInUnits();
   rig.units.Add(identity.units);
-  if (asymmetric) {
-    rig.asymmetry_seed = static_cast<int>(identity.index);
-    rig.units.MakeAsymmetric(*rig.asymmetry_seed);
-  }
+  if (asymmetric) rig.asymmetry_seed = static_cast<int>(identity.index);
   rig.units_by_place = true;
   rig.creases.at_rest = identity.creases;
   const std::span<const BakeWeights> weights = head.mesh.weights;

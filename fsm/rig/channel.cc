@@ -62,8 +62,7 @@ std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> 
       sum.assign(weights.size(), glm::vec3(0));
       for (const UnitTable::Field& field : own) {
         for (std::size_t i = 0; i < weights.size(); ++i) {
-          if (bones[i] == Bone::kSkin)
-            sum[i] += UnitTable::FieldDisplacement(field, weights[i], side);
+          if (bones[i] == Bone::kSkin) sum[i] += FieldDisplacement(field, weights[i], side);
         }
       }
       Channel channel;

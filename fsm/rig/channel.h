@@ -23,7 +23,7 @@ struct Displacement {
 /// Names a value of a state that drives the face.
 struct Drive {
   enum class Kind : std::uint8_t {
-    kUnit,           ///< action unit `number`, as it acts (UnitTable::ActingUnits)
+    kUnit,           ///< action unit `number`, as it acts (UnitCombiner)
     kCommandedUnit,  ///< action unit `number` as the state has it, 0..2, uncombined
     kMouth,          ///< `number`: index into Pose::mouth
     kSpokenMouth,    ///< the part of FaceState::mouth beyond mouth_by_hand: speech

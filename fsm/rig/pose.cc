@@ -67,10 +67,10 @@ float HeadForward(const FaceState& state) {
   return Within(state.head_forward_mm, kHeadForwardRange);
 }
 
-Pose MakePose(const FaceState& state, const UnitTable& table) {
+Pose MakePose(const FaceState& state, const UnitTable& units, const UnitCombiner& combiner) {
   Pose pose{};
-  pose.au = table.ActingUnits(state);
-  const UnitEffects effects = table.Effects(pose.au);
+  pose.au = combiner.ActingUnits(state);
+  const UnitEffects effects = SumEffects(units, pose.au);
   for (std::size_t p = 0; p < kMouthParameters; ++p)
     pose.mouth[p] = Within(state.mouth[p], kMouthRange);
   const float degrees =

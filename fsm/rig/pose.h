@@ -6,6 +6,8 @@
 
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/rig_data.h"
+#include "fsm/rig/unit_combiner.h"
+#include "fsm/rig/unit_effects.h"
 
 namespace fsm {
 
@@ -33,7 +35,7 @@ float Bound(float value, float min, float max);
 glm::mat3 HeadRotation(const FaceState& state);
 float HeadForward(const FaceState& state);
 /// Makes the pose of `state`, clamped to what anatomy allows; a value that is not finite becomes 0.
-Pose MakePose(const FaceState& state, const UnitTable& units);
+Pose MakePose(const FaceState& state, const UnitTable& units, const UnitCombiner& combiner);
 
 /// GazeOf returns the gaze angles of an eye's rotation; EyeRotationOf is its inverse.
 EyeAngles GazeOf(const glm::mat3& eye);

@@ -59,7 +59,11 @@ step::StepState StateOf(const RigData& data, const Pose& pose) {
 
 }  // namespace
 
-Rig::Rig(RigData data) : data_(std::move(data)), moved_(data_), drives_(data_.channels) {}
+Rig::Rig(RigData data)
+    : data_(std::move(data)),
+      combiner_(data_.units, data_.asymmetry_seed),
+      moved_(data_),
+      drives_(data_.channels) {}
 
 void Rig::Evaluate(const FaceState& state, HeadVertices& out,
                    std::span<const glm::vec3> spring_offsets) const {
@@ -76,7 +80,7 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
 void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
   out.creases = {};
   if (data_.creases.at_rest) {
-    out.creases = data_.units.CreaseDepths(pose.au, *data_.creases.at_rest);
+    out.creases = CreaseDepths(data_.units, pose.au, *data_.creases.at_rest);
     for (Sided<float>& depth : out.creases) {
       for (const Side side : kSides) depth[side] *= data_.creases.depth;
     }
@@ -85,7 +89,7 @@ void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
 }
 
 void Rig::FindInputs(const FaceState& state, RigInputs& inputs) const {
-  inputs.pose = MakePose(state, data_.units);
+  inputs.pose = MakePose(state, data_.units, combiner_);
   inputs.state = StateOf(data_, inputs.pose);
   inputs.strengths.clear();
   drives_.FindStrengths(data_.channels, state, inputs.pose, inputs.drive_values, inputs.strengths);
@@ -111,7 +115,6 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
 Rig Rig::WithUnits(const UnitTable& units) const {
   RigData data = data_;
   data.units = units;
-  if (data.asymmetry_seed) data.units.MakeAsymmetric(*data.asymmetry_seed);
   if (data.units_by_place) {
     std::erase_if(data.channels,
                   [](const Channel& channel) { return channel.IsLedBy(Drive::Kind::kUnit); });

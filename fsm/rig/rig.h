@@ -59,6 +59,7 @@ class Rig {
   void FindCreasesAndLids(const Pose& pose, HeadVertices& out) const;
 
   RigData data_;
+  UnitCombiner combiner_;
   MovedVertices moved_;
   ChannelDrives drives_;
 };

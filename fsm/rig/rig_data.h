@@ -114,7 +114,7 @@ struct RigData {
   std::vector<SkinWeights> weights;          ///< per vertex
   MouthLandmarks mouth;
   UnitTable units;                    ///< what each action unit does, and how units combine
-  std::optional<int> asymmetry_seed;  ///< for UnitTable::MakeAsymmetric; none: both sides alike
+  std::optional<int> asymmetry_seed;  ///< for UnitCombiner; none: both sides alike
   /// Whether UnitChannels computes the displacements of the action units from `units` and
   /// `weights`; otherwise they are the head's own.
   bool units_by_place = false;

@@ -14,17 +14,6 @@
 
 namespace fsm {
 
-/// The summed effects of the active units other than displacing skin.
-struct UnitEffects {
-  struct Lids {
-    float upper_mm = 0, lower_mm = 0, close = 0;
-  };
-  Sided<Lids> lids;
-  float jaw_degrees = 0, jaw_slide_mm = 0, jaw_sway_mm = 0;
-  float seal = 0;
-  float tongue_raise = 0, tongue_out_mm = 0;
-};
-
 /// Regions where expressions crease the skin.
 enum class Crease { kForehead, kGlabella, kCrowsFeet, kNasolabial, kNose };
 inline constexpr std::size_t kCreases = 5;
@@ -39,7 +28,7 @@ struct LidEffect {
   float upper_mm, lower_mm;  ///< the lids' margins go up
 };
 struct CloseEffect {
-  float part;  ///< by which the lids close, 1 = fully
+  float share;  ///< by which the lids close, 1 = fully
 };
 struct JawEffect {
   float degrees, slide_mm;
@@ -48,7 +37,7 @@ struct SwayEffect {
   float mm;  ///< the jaw goes to the side of the unit
 };
 struct SealEffect {
-  float part;  ///< by which the lips are sealed
+  float share;  ///< by which the lips are sealed
 };
 struct TongueEffect {
   float raise, out_mm;
@@ -69,6 +58,17 @@ class UnitTable {
     glm::vec3 displacement;
   };
 
+  /// How two units correct each other.
+  struct Rule {
+    enum class Kind { kDamp, kOppose, kStrongest } kind;
+    int a, b;
+    float share;
+  };
+  struct Effect {
+    int unit;
+    UnitEffect effect;
+  };
+
   /// Makes a table without units.
   UnitTable() = default;
   /// Throws std::runtime_error naming file and line if the table is damaged, if a number exceeds
@@ -79,49 +79,22 @@ class UnitTable {
   static bool IsRule(std::string_view key);
   /// Adds a row, whose effect adds to those of earlier rows. Throws as the constructor does.
   void Add(const TableRow& row);
-  /// Adds the rows of another table, whose asymmetry is ignored.
+  /// Adds the rows of another table.
   void Add(const UnitTable& more);
 
-  /// Gives every unit but those of lids and jaw slightly different strengths on the two sides; the
-  /// same `seed` gives the same strengths.
-  void MakeAsymmetric(int seed);
-
-  /// Returns the table as text that the constructor can read, one row a line; without asymmetry.
+  /// Returns the table as text that the constructor can read, one row a line.
   std::string Text() const;
 
   const std::vector<Field>& fields() const { return fields_; }
+  const std::vector<Rule>& rules() const { return rules_; }
+  const std::vector<Effect>& effects() const { return effects_; }
   /// Returns the numbers of the units that have any effect, ascending.
   std::vector<int> Numbers() const;
-  /// Returns the strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops
-  /// stretching), and corrected for units that act together. A non-finite value becomes 0.
-  Sided<UnitValues> ActingUnits(const FaceState& state) const;
-  /// Returns the summed effects of acting units but for creases.
-  UnitEffects Effects(const Sided<UnitValues>& au) const;
-  /// Returns the creases' depths in a state: `at_rest` plus what the acting units add.
-  Creases CreaseDepths(const Sided<UnitValues>& au,
-                       const std::array<float, kLastingCreases>& at_rest) const;
-  /// Returns how far a field, which the table has for the left, moves a vertex on `side`, in mm.
-  static glm::vec3 FieldDisplacement(const Field& field, const SkinWeights& weights, Side side);
 
  private:
-  struct Rule {
-    enum class Kind { kDamp, kOppose, kStrongest } kind;
-    int a, b;
-    float share;
-  };
-  struct Effect {
-    int unit;
-    UnitEffect effect;
-  };
-  /// Extra strength per side as a fraction; 0.03 = 3 % stronger.
-  Sided<UnitValues> lean_;
   std::vector<Field> fields_;
   std::vector<Rule> rules_;
   std::vector<Effect> effects_;
 };
-
-/// Returns the share, 0..1, of units of the agent's left side `x_mm` to the viewer's right of the
-/// median: both sides meet within 7 mm of it. The rest is that of the right side.
-float LeftShareAt(float x_mm);
 
 }  // namespace fsm

@@ -14,7 +14,7 @@
 #include "fsm/head/identity.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/make_head.h"
-#include "fsm/rig/unit_table.h"
+#include "fsm/rig/unit_combiner.h"
 
 namespace fsm {
 namespace {
@@ -86,7 +86,7 @@ TEST(HeadTablesTest, UnitsThatActTogetherAreCorrected) {
   state.au.left[43] = 0.4f;
   state.au.left[45] = 0.6f;
   state.au.right[4] = 2;
-  const Sided<UnitValues> acting = units.ActingUnits(state);
+  const Sided<UnitValues> acting = UnitCombiner(units, {}).ActingUnits(state);
   EXPECT_FLOAT_EQ(acting.left[4], 0.5f);
   EXPECT_FLOAT_EQ(acting.left[12] + acting.left[18], 1);
   EXPECT_FLOAT_EQ(acting.left[43], 0);

@@ -8,7 +8,7 @@
 
 #include "fsm/mesh/original/original_points.h"
 #include "fsm/mesh/transfer/nnls_solver.h"
-#include "fsm/rig/unit_table.h"
+#include "fsm/rig/unit_effects.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 

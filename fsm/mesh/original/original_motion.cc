@@ -10,7 +10,7 @@
 #include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/transfer/drive_fit.h"
 #include "fsm/mesh/transfer/nnls_solver.h"
-#include "fsm/rig/unit_table.h"
+#include "fsm/rig/unit_effects.h"
 
 namespace fsm {
 namespace {

@@ -149,6 +149,7 @@ std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similar
   RigData rig = MakeStillSkin();
   rig.steps = {RigStep::kChannels};
   rig.units = driven.rig().data().units;
+  rig.asymmetry_seed = driven.rig().data().asymmetry_seed;
   AddShapes(known, solver, FitDrivers(solver, rig.units, visemes), rig.channels);
   AddGazeShapes(known, file.eye_rig.gaze_ranges.value_or(GazeRanges{}), rig.channels);
   return rig;
