@@ -35,7 +35,7 @@ std::string CsvOf(const Recording& recording) {
 }
 
 void Run(const Options& options) {
-  const std::unique_ptr<fsm::Head> head = fsm::MakeHead(options.face, false);
+  const std::unique_ptr<fsm::Head> head = fsm::MakeSymmetricHead(options.face);
   for (const std::string& unit : options.units) {
     if (!fsm::ParseUnitName(unit, fsm::UnitNames::BuiltIn()) ||
         unit.find_first_not_of("0123456789") != unit.npos) {

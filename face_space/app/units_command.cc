@@ -131,7 +131,7 @@ void Run(const Options& options) {
   }
   if (!options.base.folder.empty()) NotTheInput(options.out, options.base.folder);
   // Both sides alike, as the tables describe them; which face it is does not matter to the tables.
-  const std::unique_ptr<fsm::Head> head = fsm::MakeHead("galatea", false);
+  const std::unique_ptr<fsm::Head> head = fsm::MakeSymmetricHead("galatea");
   const Material material = ReadMaterial(options, *head);
   std::vector<std::vector<Label>> labels(material.recordings.size());
   if (!options.labels.empty()) labels = ReadLabels(options.labels, options.recordings);

@@ -14,7 +14,7 @@ using facefit::ObservedHead;
 
 std::unique_ptr<fsm::Head> SomeHead(std::size_t number) {
   constexpr const char* kBases[] = {"galatea", "pygmalion"};
-  if (number < 2) return fsm::MakeHead(kBases[number], false);
+  if (number < 2) return fsm::MakeSymmetricHead(kBases[number]);
   std::mt19937 chance(static_cast<unsigned>(number));
   const auto between = [&chance](float low, float high) {
     return low + (high - low) * static_cast<float>(chance() % 10001) / 10000;
@@ -24,7 +24,7 @@ std::unique_ptr<fsm::Head> SomeHead(std::size_t number) {
     identity.sliders.emplace_back(name, between(-1.2F, 1.2F));
   }
   identity.palette.skin *= between(0.35F, 1.1F);
-  return fsm::MakeHead(std::move(identity), false);
+  return fsm::MakeSymmetricHead(std::move(identity));
 }
 
 Sitter::Sitter(std::unique_ptr<fsm::Head> head, facefit::FaceNetworks& networks,

@@ -145,7 +145,7 @@ std::optional<RigData> RigOfShapes(const ImportedHead& file, const Alignment& al
                                    const MotionTables& tables,
                                    const std::optional<UnitTable>& units, UnriggedHead& model,
                                    std::vector<std::string>& unused) {
-  const auto source = MakeHead(alignment.face, false);
+  const auto source = MakeSymmetricHead(alignment.face);
   const auto other = units ? source->WithUnits(*units) : nullptr;
   const std::vector<ShapeMeaning> shapes = Meanings(tables);
   return MakeBlendshapeRig(file, alignment.to_ours, model, {*source, shapes},

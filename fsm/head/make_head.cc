@@ -159,7 +159,7 @@ HeadSurface SurfaceOf(const HeadSources& from, const BaseParts& parts, const For
 }
 
 RigData RigOf(const HeadSources& from, const BaseSkin& skin, const FormedHead& head,
-              const HeadSurface& surface, bool asymmetric) {
+              const HeadSurface& surface) {
   using enum RigStep;
   const Identity& identity = from.identity;
   RigData rig;
@@ -175,7 +175,7 @@ RigData RigOf(const HeadSources& from, const BaseSkin& skin, const FormedHead& h
   for (const BakeWeights& vertex : head.mesh.weights) rig.weights.push_back(vertex.skin);
   rig.units = BuiltInUnits();
   rig.units.Add(identity.units);
-  if (asymmetric) rig.asymmetry_seed = static_cast<int>(identity.index);
+  rig.asymmetry_seed = static_cast<int>(identity.index);
   rig.units_by_place = true;
   rig.creases.at_rest = identity.creases;
   const std::span<const BakeWeights> weights = head.mesh.weights;
@@ -201,10 +201,10 @@ RigData RigOf(const HeadSources& from, const BaseSkin& skin, const FormedHead& h
 }
 
 HeadAsset AssetOf(const HeadSources& from, const BaseSkin& skin, const BaseParts& parts,
-                  const FormedHead& head, bool asymmetric) {
+                  const FormedHead& head) {
   HeadAsset asset;
   asset.surface = SurfaceOf(from, parts, head);
-  asset.rig = RigOf(from, skin, head, asset.surface, asymmetric);
+  asset.rig = RigOf(from, skin, head, asset.surface);
   asset.landmarks = NameLandmarks(skin.cage, skin.fine, asset.rig.rest, from.eye, head.eyes,
                                   *from.identity.features);
   return asset;
@@ -228,13 +228,7 @@ void MapPhoto(const PhotoHead& photo_head, const HeadSources& from, const BaseSk
   ApplyPhoto(photo_head, worn, from.identity.palette.lip_inside, asset.surface);
 }
 
-}  // namespace
-
-std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric) {
-  return MakeHead(BuiltInIdentity(identity), asymmetric);
-}
-
-std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric) {
+HeadAsset AssetOf(Identity own) {
   const HeadSources from(std::move(own));
   const Identity& identity = from.identity;
   const BaseSkin skin = MakeSkin(from);
@@ -252,7 +246,27 @@ std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric) {
       HeadForm(from.eye, from.mouth, from.sliders, nullptr, {}, parts.mesh, identity.eyes),
       parts.mesh);
   identity.crop ? BuildCroppedHair(identity, head.mesh) : BuildLongHair(identity, head.mesh);
-  return std::make_unique<Head>(AssetOf(from, skin, parts, head, asymmetric));
+  return AssetOf(from, skin, parts, head);
+}
+
+}  // namespace
+
+std::unique_ptr<Head> MakeHead(std::string_view identity) {
+  return MakeHead(BuiltInIdentity(identity));
+}
+
+std::unique_ptr<Head> MakeHead(Identity own) {
+  return std::make_unique<Head>(AssetOf(std::move(own)));
+}
+
+std::unique_ptr<Head> MakeSymmetricHead(std::string_view identity) {
+  return MakeSymmetricHead(BuiltInIdentity(identity));
+}
+
+std::unique_ptr<Head> MakeSymmetricHead(Identity own) {
+  HeadAsset asset = AssetOf(std::move(own));
+  asset.rig.asymmetry_seed.reset();
+  return std::make_unique<Head>(std::move(asset));
 }
 
 std::unique_ptr<Head> MakeHead(const PhotoHead& photo_head) {
@@ -266,7 +280,7 @@ std::unique_ptr<Head> MakeHead(const PhotoHead& photo_head) {
   BuildLashes(from.eye, from.identity, true, parts.mesh);
   AddEyesAndMouth(from, parts.mesh);
   const FormedHead head = WarpToPhoto(from, photo_head, skin, parts.mesh);
-  HeadAsset asset = AssetOf(from, skin, parts, head, true);
+  HeadAsset asset = AssetOf(from, skin, parts, head);
   asset.rig.creases.depth = photo_head.lined;
   MapPhoto(photo_head, from, skin, head, asset);
   return std::make_unique<Head>(std::move(asset));
@@ -277,7 +291,7 @@ Rig MakeSkinRig(const PhotoHead& photo_head) {
   const BaseSkin skin = MakeSkin(from);
   const BaseParts alone{skin.mesh, {}};
   const FormedHead head = WarpToPhoto(from, photo_head, skin, skin.mesh);
-  return Rig(RigOf(from, skin, head, SurfaceOf(from, alone, head), true));
+  return Rig(RigOf(from, skin, head, SurfaceOf(from, alone, head)));
 }
 
 }  // namespace fsm

@@ -11,11 +11,14 @@ namespace fsm {
 struct PhotoHead;
 
 /// Makes the built-in head named `identity`. The two sides move slightly differently, by a few
-/// percent fixed for each identity, unless `asymmetric` is false. Deterministic. Throws
+/// percent fixed for each identity. Deterministic. Throws
 /// std::runtime_error listing the names if the name is unknown, and if a table is damaged.
-std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric = true);
+std::unique_ptr<Head> MakeHead(std::string_view identity);
 /// Makes the head of a user's own identity. Throws std::runtime_error for an unknown slider.
-std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric = true);
+std::unique_ptr<Head> MakeHead(Identity own);
+/// Make such heads whose sides move alike.
+std::unique_ptr<Head> MakeSymmetricHead(std::string_view identity);
+std::unique_ptr<Head> MakeSymmetricHead(Identity own);
 /// Makes a head from a photo: its base face, warped and wearing the photo. Throws as the first, and
 /// std::runtime_error without `photo_head.atlas`. REQUIRES: sheet_triangles index `sheet`, as
 /// ReadPhotoHead makes sure.

@@ -25,13 +25,13 @@ FrameReader::~FrameReader() {
   for (const Buffer& buffer : spare_buffers_) gl_.DeleteBuffers(1, &buffer.name);
 }
 
-std::uint64_t FrameReader::Begin(GlTarget& target, bool soft, bool transparent) {
+std::uint64_t FrameReader::Begin(GlTarget& target, const ReadOptions& options) {
   Frame& frame = frames_[++last_];
-  frame.transparent = transparent;
+  frame.transparent = options.transparent;
   if (average_) {
-    BeginAverage(target, soft, frame);
+    BeginAverage(target, options.filter, frame);
   } else {
-    target.Read(frame.image, soft);
+    target.Read(frame.image, options.filter);
   }
   return last_;
 }
@@ -55,7 +55,7 @@ void FrameReader::Drop(std::uint64_t number) {
   }
 }
 
-void FrameReader::BeginAverage(const GlTarget& target, bool soft, Frame& frame) {
+void FrameReader::BeginAverage(const GlTarget& target, Filter filter, Frame& frame) {
   Image& image = frame.image;
   image.width = target.width();
   image.height = target.height();
@@ -74,7 +74,7 @@ void FrameReader::BeginAverage(const GlTarget& target, bool soft, Frame& frame) 
   gl_.BindTexture(GL_TEXTURE_2D, target.samples());
   average_->Use();
   average_->Set("samples", TextureUnit::kPass);
-  average_->Set("soft", soft);
+  average_->Set("soft", filter == Filter::kSoft);
   constexpr int kGroup = 8;  // local_size_x and _y
   gl_.DispatchCompute(static_cast<GLuint>((image.width + kGroup - 1) / kGroup),
                       static_cast<GLuint>((image.height + kGroup - 1) / kGroup), 1);

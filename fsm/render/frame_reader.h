@@ -10,6 +10,12 @@
 
 namespace fsm {
 
+/// How a frame is read.
+struct ReadOptions {
+  Filter filter = Filter::kBox;
+  bool transparent = false;  ///< its colours are premultiplied: Unmultiply follows
+};
+
 /// Reads frames back to memory while others are drawn. Destroy while its context is current.
 class FrameReader {
  public:
@@ -21,9 +27,8 @@ class FrameReader {
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;
 
-  /// `soft`: see AverageSamples; `transparent`: Unmultiply follows. Returns the handle of the frame
-  /// for End and Drop; the target may be drawn into again.
-  std::uint64_t Begin(GlTarget& target, bool soft, bool transparent);
+  /// Returns the handle of the frame for End and Drop; the target may be drawn into again.
+  std::uint64_t Begin(GlTarget& target, const ReadOptions& options);
   /// Waits for this frame only, not for later ones; the bytes are those of GlTarget::Read. Frames
   /// may end in any order. Throws std::runtime_error if the driver does not return the data.
   void End(std::uint64_t frame, Image& out);
@@ -40,7 +45,7 @@ class FrameReader {
     bool transparent = false;
   };
 
-  void BeginAverage(const GlTarget& target, bool soft, Frame& frame);
+  void BeginAverage(const GlTarget& target, Filter filter, Frame& frame);
   void EndAverage(const Frame& frame, Image& out);
 
   const GlFunctions& gl_;

@@ -117,7 +117,7 @@ void GlTarget::ReadRows(int from, int to, void* samples) const {
                  samples);
 }
 
-void GlTarget::Read(Image& out, bool soft) {
+void GlTarget::Read(Image& out, Filter filter) {
   // Reads few rows at a time, so that they stay in the cache until they are averaged.
   constexpr int kRowsAtOnce = 16;
   const std::size_t row = samples_in_row();
@@ -129,11 +129,11 @@ void GlTarget::Read(Image& out, bool soft) {
   for (int y = height_; y > 0; y -= kRowsAtOnce) {
     // GL's first row is the lowest.
     const int first = std::max(y - kRowsAtOnce, 0);
-    const int beside = soft ? 1 : 0;
+    const int beside = filter == Filter::kSoft ? 1 : 0;
     const int from = std::max(first * kSamplesAlong - beside, 0);
     const int to = std::min(y * kSamplesAlong - 1 + beside, height_ * kSamplesAlong - 1);
     ReadRows(from, to, samples_.data());
-    AverageSamples({samples_.data(), row, from, to}, first, y - first, soft, rgba);
+    AverageSamples({samples_.data(), row, from, to}, first, y - first, filter, rgba);
     rgba += row * 2 * static_cast<std::size_t>(y - first);
   }
 }

@@ -123,8 +123,8 @@ class GlTarget {
   /// Binds the whole framebuffer for drawing.
   void Bind() const;
   std::size_t samples_in_row() const { return static_cast<std::size_t>(width_) * kSamplesAlong; }
-  /// Reads the averaged picture; `soft`: see AverageSamples.
-  void Read(Image& out, bool soft);
+  /// Reads the averaged picture.
+  void Read(Image& out, Filter filter);
   GLuint samples() const { return colour_; }  ///< an RGBA8 texture, lowest row first
   /// Averages into the bound GL_DRAW_FRAMEBUFFER, with the lower left corner at (x, y).
   void Show(int x, int y) const;

@@ -92,13 +92,13 @@ class GlRenderer : public Renderer {
   void Read(Image& out) override {
     assert(target_ && "Read before the first Draw");
     if (draws_on_gpu_) return EndRead(BeginRead(), out);
-    target_->Read(out, soft_);
-    if (transparent_) Unmultiply(out);
+    target_->Read(out, read_options_.filter);
+    if (read_options_.transparent) Unmultiply(out);
   }
 
   std::uint64_t BeginRead() override {
     assert(target_ && "BeginRead before the first Draw");
-    return reader_.Begin(*target_, soft_, transparent_);
+    return reader_.Begin(*target_, read_options_);
   }
   void EndRead(std::uint64_t frame, Image& out) override { reader_.End(frame, out); }
   void DropRead(std::uint64_t frame) override { reader_.Drop(frame); }
@@ -124,8 +124,9 @@ class GlRenderer : public Renderer {
     target_->Bind();
     // A photo is soft, so hard edges beside it would stand out. Single hairs are thinner than a
     // pixel and would become rows of dots.
-    soft_ = HasBlendedLayers(head.surface()) || !head.surface().strands.empty();
-    transparent_ = std::holds_alternative<Transparent>(scene.background);
+    const bool soft = HasBlendedLayers(head.surface()) || !head.surface().strands.empty();
+    read_options_ = {soft ? Filter::kSoft : Filter::kBox,
+                     std::holds_alternative<Transparent>(scene.background)};
     const Background behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
     const float alpha = std::clamp(figure.alpha, 0.0F, 1.0F);
@@ -176,8 +177,7 @@ class GlRenderer : public Renderer {
   HeadVertices vertices_;  // result of moving a head on the processor; reused
   // The target of the last frame.
   GlTarget* target_ = nullptr;
-  bool soft_ = false;
-  bool transparent_ = false;
+  ReadOptions read_options_;
 };
 
 }  // namespace

@@ -50,16 +50,17 @@ void SoftRow(const std::array<const std::uint32_t*, 4>& rows, std::size_t row, s
 
 }  // namespace
 
-void AverageSamples(const SampleRows& samples, int first, int rows, bool soft, std::uint8_t* rgba) {
+void AverageSamples(const SampleRows& samples, int first, int rows, Filter filter,
+                    std::uint8_t* rgba) {
   const std::size_t row = samples.row;
-  std::vector<std::uint16_t> sums(soft ? 4 * (row + 2) : 0);
+  std::vector<std::uint16_t> sums(filter == Filter::kSoft ? 4 * (row + 2) : 0);
   const auto at = [&](int k) {
     const int inside = std::clamp(k, samples.from, samples.to) - samples.from;
     return samples.first + row * static_cast<std::size_t>(inside);
   };
   for (int k = rows - 1; k >= 0; --k, rgba += row * 2) {
     const int low = (first + k) * kSamplesAlong;
-    if (soft) {
+    if (filter == Filter::kSoft) {
       SoftRow({at(low - 1), at(low), at(low + 1), at(low + 2)}, row, sums.data(), rgba);
     } else {
       AverageRow(at(low), row, rgba);

@@ -17,11 +17,18 @@ struct SampleRows {
   int from, to;     ///< index of first and last row in the target
 };
 
+enum class Filter {
+  kBox,  ///< averages the 2 x 2 samples of a pixel
+  /// Averages over 4 x 4 samples with less weight on the outer ones, as a camera does, so that
+  /// nearly horizontal edges show no stairs.
+  kSoft
+};
+
 /// Averages the samples of `rows` rows of pixels, counted from below, beginning with `first`, into
-/// 4 bytes for each pixel, upper row first. `soft`: averages over 4 x 4 samples with less weight on
-/// the outer ones, as a camera does, so that nearly horizontal edges show no stairs. It then also
-/// uses one row of samples below and above, where `samples` has them.
-void AverageSamples(const SampleRows& samples, int first, int rows, bool soft, std::uint8_t* rgba);
+/// 4 bytes for each pixel, upper row first. Filter::kSoft also uses one row of samples
+/// below and above, where `samples` has them.
+void AverageSamples(const SampleRows& samples, int first, int rows, Filter filter,
+                    std::uint8_t* rgba);
 
 /// Divides colours by their opacity: blending and averaging over transparent black leave them
 /// premultiplied, but picture files expect them straight.

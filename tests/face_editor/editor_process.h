@@ -81,7 +81,7 @@ class FaceEditorTest : public testing::Test {
   }
   /// A picture drawn of a built-in head: a photo whose face can be found without other people's.
   std::string DrawnPhoto(const std::string& name = "photo.png", float turned_degrees = 0) {
-    const auto head = fsm::MakeHead("pygmalion", false);
+    const auto head = fsm::MakeSymmetricHead("pygmalion");
     fsm::HeadVertices vertices;
     head->Evaluate({}, vertices);
     const auto context = fsm::RenderContext::MakeHeadless(400, 400);

@@ -18,7 +18,7 @@ class EditorFilesTest : public FaceEditorTest {
  protected:
   /// A head with four shapes of its own.
   std::string WriteHead() {
-    const auto head = fsm::MakeHead("pygmalion", false);
+    const auto head = fsm::MakeSymmetricHead("pygmalion");
     std::vector<fsm::ExportedShape> shapes;
     for (const auto& [name, unit] : {std::pair("jawOpen", 26U),
                                      {"mouthSmileLeft", 12U},

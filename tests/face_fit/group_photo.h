@@ -19,7 +19,7 @@ struct Person {
 };
 
 inline fsm::Image DrawnPerson(const Person& person) {
-  const auto head = fsm::MakeHead(person.face, false);
+  const auto head = fsm::MakeSymmetricHead(person.face);
   fsm::FaceState state;
   state.figure.rotation = {0, person.turn, person.tilt};
   fsm::HeadVertices vertices;

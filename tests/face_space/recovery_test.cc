@@ -28,7 +28,7 @@ double RmsOf(const Eigen::VectorXd& off) {
 
 /// All of it takes some seconds, so the tests share one.
 struct Demonstration {
-  std::unique_ptr<fsm::Head> head = fsm::MakeHead("galatea", false);
+  std::unique_ptr<fsm::Head> head = fsm::MakeSymmetricHead("galatea");
   HeadSites sites = SitesOf(*head);
   std::vector<std::vector<Label>> labels = Mixtures(PaperUnits(), 52, *head, true, 1);
   StillFaces faces;

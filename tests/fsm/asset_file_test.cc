@@ -212,7 +212,7 @@ TEST(AssetFileTest, GazeRangesAndLightOfMaterialsComeBack) {
 }
 
 TEST(AssetFileTest, OtherProgramsSeeAMeshWithShapes) {
-  const auto head = MakeHead("galatea", false);
+  const auto head = MakeSymmetricHead("galatea");
   ExportedShape smile{"mouthSmileLeft", {}};
   smile.state.au.left[12] = 1;
   const GltfDocument gltf(WriteAsset(*head, std::vector{smile}));

@@ -168,7 +168,7 @@ TEST(HeadContactTest, NoTriangleOfTheFaceTurnsOver) {
   // Against its direction at rest, judged by the angle of its normal; folds of the lids may turn on
   // the ball, the inside of the mouth may not be seen.
   for (const char* name : {"galatea", "pygmalion"}) {
-    const auto head = MakeHead(name, false);
+    const auto head = MakeSymmetricHead(name);
     const HeadSurface& topology = head->surface();
     HeadVertices rest, v;
     head->Evaluate({}, rest);

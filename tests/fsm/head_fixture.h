@@ -14,7 +14,7 @@ namespace fsm::testing {
 
 /// Making the head takes some 50 ms, so all tests of a program share one.
 inline const Head& GenericHead() {
-  static const std::unique_ptr<Head> head = MakeHead("galatea", false);
+  static const std::unique_ptr<Head> head = MakeSymmetricHead("galatea");
   return *head;
 }
 

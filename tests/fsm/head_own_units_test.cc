@@ -56,9 +56,9 @@ TEST(OwnUnitsTest, TheJawOpensAsFarAsTheTableSays) {
 
 TEST(OwnUnitsTest, RowsOfAnIdentityAddToWhatAllFacesDo) {
   const std::string base = "base galatea\n";
-  const auto same = MakeHead(ReadOwnIdentity("own.txt", base), false);
+  const auto same = MakeSymmetricHead(ReadOwnIdentity("own.txt", base));
   const auto own =
-      MakeHead(ReadOwnIdentity("own.txt", base + "field 2 43 47 20 20 both 0 3 0\n"), false);
+      MakeSymmetricHead(ReadOwnIdentity("own.txt", base + "field 2 43 47 20 20 both 0 3 0\n"));
   const std::size_t brow = SkinAt(43, 47);
   for (const float strength : {0.0f, 0.5f, 1.0f}) {
     HeadVertices before, after;

@@ -207,7 +207,7 @@ std::string WithRow(const std::string& name, const std::string& row) {
 }
 
 TEST(HeadTablesTest, EyesAreAsLargeAndTiltedAsTheirRowSays) {
-  const auto with = [](const char* row) { return MakeHead(Changed("galatea", {row}), false); };
+  const auto with = [](const char* row) { return MakeSymmetricHead(Changed("galatea", {row})); };
   const auto slit = [](const Head& head) {
     return head.Landmark("exocanthion_left") - head.Landmark("endocanthion_left");
   };
@@ -342,7 +342,7 @@ TEST(HeadTablesTest, AShavedBeardsHairsLieBelowTheNoseAndNotOnTheLips) {
 
 TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
   const auto lowest = [](const char* row) {
-    const auto head = MakeHead(Changed("galatea", {row}), false);
+    const auto head = MakeSymmetricHead(Changed("galatea", {row}));
     float low = 0;
     for (const auto& part : head->surface().parts) {
       if (part.material != Material::kHair) continue;

@@ -398,7 +398,7 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   file.shapes[0].moves = {{0, {0, -10, 0}}, {1, {0, -10, 0}}, {2, {0, -10, 0}}};
   UnriggedHead model = AlignImportedHead(file, {}, -30);
   ASSERT_EQ(model.mesh.bone[0], Bone::kJaw);
-  const auto source = MakeHead("galatea", false);
+  const auto source = MakeSymmetricHead("galatea");
   auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
   ASSERT_TRUE(skin);
   EXPECT_EQ(model.mesh.bone[0], Bone::kSkin);
@@ -423,7 +423,7 @@ ImportedHead OfShapes(std::initializer_list<const char*> names) {
 /// The rig of a file by some of ARKit's shapes, and which shapes it leaves out.
 struct OwnShapes {
   explicit OwnShapes(const ImportedHead& file) : model(AlignImportedHead(file, {}, -43)) {
-    const auto source = MakeHead("galatea", false);
+    const auto source = MakeSymmetricHead("galatea");
     const auto add = [&](const char* name, std::size_t unit, bool right, bool left) {
       FaceState state;
       state.asymmetry = 0;

@@ -28,7 +28,7 @@ ExportedShape Shape(const char* name, std::size_t unit, bool left, bool right) {
 }
 
 TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
-  const auto head = MakeHead("galatea", false);
+  const auto head = MakeSymmetricHead("galatea");
   const std::vector<ExportedShape> shapes = {Shape("jawOpen", 27, true, true),
                                              Shape("mouthSmileLeft", 12, true, false)};
   const auto file = ParseGltfHead("head.glb", WriteAsset(*head, shapes));
@@ -67,14 +67,14 @@ TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
 }
 
 TEST(GltfHeadTest, OnlyWhatMovesIsStored) {
-  const auto head = MakeHead("galatea", false);
+  const auto head = MakeSymmetricHead("galatea");
   const auto none = WriteAsset(*head, {});
   const std::vector<ExportedShape> one = {Shape("browOuterUpLeft", 2, true, false)};
   EXPECT_LT(WriteAsset(*head, one).size() - none.size(), 150000U);
 }
 
 TEST(GltfHeadTest, UnitsOfOnesOwnMoveAHeadByItsOwnShapes) {
-  const std::shared_ptr<const Head> source = MakeHead("galatea", false);
+  const std::shared_ptr<const Head> source = MakeSymmetricHead("galatea");
   std::vector<ExportedShape> shapes;
   std::vector<ShapeMeaning> meanings;
   for (const auto& [name, unit] : {std::pair("a", 26), {"b", 12}, {"c", 2}, {"d", 4}}) {

@@ -31,8 +31,8 @@ namespace {
 class DeformationTransferTest : public testing::Test {
  protected:
   void SetUp() override {
-    from_ = MakeHead("galatea", false);
-    to_ = MakeHead(Identities()[1], false);
+    from_ = MakeSymmetricHead("galatea");
+    to_ = MakeSymmetricHead(Identities()[1]);
     from_->Evaluate({}, from_rest_);
     to_->Evaluate({}, to_rest_);
     flesh_ = SkinTriangles(from_->surface());

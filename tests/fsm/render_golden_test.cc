@@ -37,7 +37,7 @@ const MotionTables& Tables() {
 /// without what would tell us that it is ours.
 std::unique_ptr<Head> OfGltf() {
   const std::string own = kAssetExtension, other = "EXAMPLE_head";
-  std::string file = WriteAsset(*MakeHead("pygmalion", false), ArkitShapes(Tables()));
+  std::string file = WriteAsset(*MakeSymmetricHead("pygmalion"), ArkitShapes(Tables()));
   for (auto at = file.find(own); at != std::string::npos; at = file.find(own, at)) {
     file.replace(at, own.size(), other);
   }

@@ -160,9 +160,9 @@ TEST(FrameReaderTest, BuffersHandOutWhatIsReadAtOnce) {
     target.Bind();
     // The picture is stretched, so that every sample is another.
     backdrop.Draw(std::make_shared<const Image>(Pattern(53, 37, 11 * i)), 40, 30);
-    const bool soft = i % 2 == 1;
-    target.Read(expected.emplace_back(), soft);
-    begun.push_back({buffered.Begin(target, soft, false), at_once.Begin(target, soft, false)});
+    const Filter filter = i % 2 == 1 ? Filter::kSoft : Filter::kBox;
+    target.Read(expected.emplace_back(), filter);
+    begun.push_back({buffered.Begin(target, {filter}), at_once.Begin(target, {filter})});
   }
   EXPECT_NE(expected[0].rgba, expected[2].rgba);
   buffered.Drop(begun[1][0]);

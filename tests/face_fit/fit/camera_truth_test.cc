@@ -255,7 +255,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
   static TrueHead Ours(const std::string& name) {
     const bool warped = name == "warped";
     TrueHead made;
-    made.head = fsm::MakeHead(warped ? "pygmalion" : name, false);
+    made.head = fsm::MakeSymmetricHead(warped ? "pygmalion" : name);
     made.head->Evaluate({}, made.rest);
     std::vector<fsm::WarpPoint> moves;
     for (const auto& [place, by] : kWarped) {

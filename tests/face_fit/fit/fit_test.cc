@@ -36,7 +36,7 @@ FoundFace DetectedOf(const PerPoint<MeshPoint>& on_head, const std::vector<glm::
 
 /// The head as a network would see it whose depth is true.
 ObservedHead Exact(const ObservedHead& base) {
-  return ObservedHead::Exact(fsm::MakeHead("galatea", false), base.name(), base.mesh_points());
+  return ObservedHead::Exact(fsm::MakeSymmetricHead("galatea"), base.name(), base.mesh_points());
 }
 
 TEST_F(FitTest, TheBuiltInHeadFittedToItselfHardlyMoves) {

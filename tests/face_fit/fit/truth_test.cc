@@ -106,7 +106,7 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
   }
   static const fsm::Head& truth() {
     auto& head = truths_[GetParam()];
-    if (!head) head = fsm::MakeHead(GetParam(), false);
+    if (!head) head = fsm::MakeSymmetricHead(GetParam());
     return *head;
   }
   static const Front& front() {

@@ -18,7 +18,7 @@ namespace facefit {
 /// The built-in head, whose own units say which lip and which lid a place belongs to.
 class BuiltInHeadTest : public testing::Test {
  protected:
-  BuiltInHeadTest() : head_(fsm::MakeHead("galatea", false)) { head_->Evaluate({}, rest_); }
+  BuiltInHeadTest() : head_(fsm::MakeSymmetricHead("galatea")) { head_->Evaluate({}, rest_); }
 
   std::optional<LidEdges> Lids(const fsm::HeadVertices& at, fsm::Side side) const {
     return FindLidEdges(*head_, at.position, EyeVertices(head_->surface()), side);

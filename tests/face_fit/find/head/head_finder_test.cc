@@ -119,7 +119,7 @@ float ErrorOf(const Subject& subject, const std::vector<glm::vec3>& truth,
 TEST_F(HeadFinderTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) {
   for (const char* name : {"ict", "makehuman"}) {
     const Subject& subject = Of(name);
-    const auto ours = fsm::MakeHead("galatea", false);
+    const auto ours = fsm::MakeSymmetricHead("galatea");
     fsm::HeadVertices rest;
     ours->Evaluate({}, rest);
     const auto flesh = fsm::SkinTriangles(ours->surface());
@@ -176,7 +176,7 @@ TEST_F(HeadFinderTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
       return y / count;
     };
     fsm::UnriggedHead model = subject.model;
-    fsm::RigData skin = fsm::TransferRig(model, *fsm::MakeHead("galatea", false), pairs);
+    fsm::RigData skin = fsm::TransferRig(model, *fsm::MakeSymmetricHead("galatea"), pairs);
     const auto head = fsm::RigUnriggedHead(std::move(model), std::move(skin));
     fsm::HeadVertices moved;
     fsm::FaceState state;
