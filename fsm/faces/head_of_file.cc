@@ -140,16 +140,15 @@ Alignment AlignmentOf(const ImportedHead& file, const std::string& points) {
   return AlignByPoints(vm::OrThrow(ParseHeadPoints(points, text)));
 }
 
-/// Makes the rig from the file's own shapes; nothing if too few names are known.
-std::optional<RigData> RigOfShapes(const ImportedHead& file, const Alignment& alignment,
-                                   const MotionTables& tables,
-                                   const std::optional<UnitTable>& units, UnriggedHead& model,
-                                   std::vector<std::string>& unused) {
+/// Makes the rig from the file's own shapes.
+BlendshapeRig RigOfShapes(const ImportedHead& file, const Alignment& alignment,
+                          const MotionTables& tables, const std::optional<UnitTable>& units,
+                          UnriggedHead& model) {
   const auto source = MakeSymmetricHead(alignment.face);
   const auto other = units ? source->WithUnits(*units) : nullptr;
   const std::vector<ShapeMeaning> shapes = Meanings(tables);
   return MakeBlendshapeRig(file, alignment.to_ours, model, {*source, shapes},
-                           other ? *other : *source, VisemeStates(tables), &unused);
+                           other ? *other : *source, VisemeStates(tables));
 }
 
 }  // namespace
@@ -185,12 +184,12 @@ FileHead MakeHeadOfFile(const std::string& path, const TableFolder& tables_folde
   std::optional<RigData> skin;
   if (!file.shapes.empty()) {
     const MotionTables tables = vm::OrThrow(MotionTables::Load(tables_folder));
-    std::vector<std::string> unused;
-    skin = RigOfShapes(file, alignment, tables, units, model, unused);
+    BlendshapeRig own = RigOfShapes(file, alignment, tables, units, model);
+    skin = std::move(own.rig);
     made.by_shapes = skin.has_value();
-    if (!unused.empty()) {
+    if (!own.unused.empty()) {
       notices.push_back("shapes are not used, for neither ARKit nor VRM has their names: " +
-                        Listed(unused));
+                        Listed(own.unused));
     }
   }
   if (!skin && !alignment.pairs.empty()) {

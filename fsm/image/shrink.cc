@@ -78,4 +78,8 @@ Image Halved(const Image& image) {
   return half;
 }
 
+void HalveUntil(Image& image, int side) {
+  while (image.width > side || image.height > side) image = Halved(image);
+}
+
 }  // namespace fsm

@@ -9,5 +9,7 @@ namespace fsm {
 Image Shrunk(const Image& image, int width, int height);
 /// Returns half the width and height, rounded down to at least 1: each pixel is the mean of 2 x 2.
 Image Halved(const Image& image);
+/// Halves a picture until neither side is longer than `side`.
+void HalveUntil(Image& image, int side);
 
 }  // namespace fsm

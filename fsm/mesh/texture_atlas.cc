@@ -27,12 +27,8 @@ void Lay(const Image& picture, glm::ivec2 at, glm::ivec2 size, int rim, Image& a
 
 }  // namespace
 
-void Shrink(Image& picture, int side) {
-  while (picture.width > side || picture.height > side) picture = Halved(picture);
-}
-
 std::size_t TextureAtlas::Add(Image picture) {
-  Shrink(picture, kMaxSide);
+  HalveUntil(picture, kMaxSide);
   pictures_.push_back(std::move(picture));
   return pictures_.size() - 1;
 }

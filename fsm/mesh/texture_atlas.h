@@ -10,9 +10,6 @@
 
 namespace fsm {
 
-/// Halves a picture until neither side is longer than `side`.
-void Shrink(Image& picture, int side);
-
 /// Packs several pictures into one, because a head has one texture.
 class TextureAtlas {
  public:

@@ -45,10 +45,9 @@ class OrderMaker {
       : surface_(surface), triangles_(triangles), detail_(detail) {}
 
   DrawOrder Make(std::span<const glm::vec3> rest) {
-    std::size_t before_ears = 0;
-    const std::vector<std::uint32_t> hair = SortedHair(rest, before_ears);
+    const SortedHair hair = SortHair(rest);
     const HeadSurface::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
-    Add(locks, Corners(hair).first(before_ears));
+    Add(locks, hair.before);
     Layer sheet, skin;
     AddFace(sheet, skin);
     Add(sheet.part, sheet.corners, true);
@@ -56,7 +55,7 @@ class OrderMaker {
     for (const auto& part : triangles_.parts) {
       if (part.material == Material::kShutLash) Add(part, CornersOf(part), true);
     }
-    Add(locks, Corners(hair).subspan(before_ears));
+    Add(locks, hair.behind);
     return std::move(order_);
   }
 
@@ -122,11 +121,13 @@ class OrderMaker {
     }
   }
 
-  /// Returns the triangles of hair, front to back; the first `before_ears` corners lie before the
-  /// ears. Locks come before the shell of hair they lie on; ties are sorted by vertex index, so
+  /// Hair before and behind the ears, front to back.
+  struct SortedHair {
+    std::vector<std::uint32_t> before, behind;
+  };
+  /// Locks come before the shell of hair they lie on; ties are sorted by vertex index, so
   /// that the order is the same everywhere.
-  std::vector<std::uint32_t> SortedHair(std::span<const glm::vec3> rest,
-                                        std::size_t& before_ears) const {
+  SortedHair SortHair(std::span<const glm::vec3> rest) const {
     constexpr float kBehind = 0.0F;  // z of the plane of the ears
     using Triangle = std::array<std::uint32_t, 3>;
     std::vector<Triangle> hair;
@@ -148,12 +149,12 @@ class OrderMaker {
     std::ranges::sort(hair, {}, [&](const Triangle& t) {
       return std::tuple(depth(t) < kBehind, is_shell(t), -depth(t), t);
     });
-    std::vector<std::uint32_t> corners;
+    SortedHair sorted;
     for (const Triangle& t : hair) {
+      auto& corners = depth(t) < kBehind ? sorted.behind : sorted.before;
       corners.insert(corners.end(), t.begin(), t.end());
-      if (depth(t) >= kBehind) before_ears = corners.size();
     }
-    return corners;
+    return sorted;
   }
 
   const HeadSurface& surface_;

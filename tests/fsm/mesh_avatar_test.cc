@@ -399,7 +399,7 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   UnriggedHead model = AlignImportedHead(file, {}, -30);
   ASSERT_EQ(model.mesh.bone[0], Bone::kJaw);
   const auto source = MakeSymmetricHead("galatea");
-  auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
+  auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source).rig;
   ASSERT_TRUE(skin);
   EXPECT_EQ(model.mesh.bone[0], Bone::kSkin);
   const auto head = RigUnriggedHead(std::move(model), std::move(*skin));
@@ -437,7 +437,9 @@ struct OwnShapes {
     add("jawleft", 30, false, true);
     add("browdownleft", 4, false, true);
     add("browdownright", 4, true, false);
-    skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source, {}, &unused);
+    auto made = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
+    skin = std::move(made.rig);
+    unused = std::move(made.unused);
   }
   std::vector<ShapeMeaning> meanings;
   UnriggedHead model;
@@ -546,7 +548,7 @@ TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
   }
   UnriggedHead model = AlignImportedHead(file, {}, -30);
   const auto source = FallingBall();
-  auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
+  auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source).rig;
   ASSERT_TRUE(skin);
   const float rest = model.mesh.position[0].y;
   const auto head = RigUnriggedHead(std::move(model), std::move(*skin));

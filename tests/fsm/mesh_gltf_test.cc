@@ -86,7 +86,7 @@ TEST(GltfHeadTest, UnitsOfOnesOwnMoveAHeadByItsOwnShapes) {
   const Similarity place{.scale = 1000};
   const auto moved_as = [&](const Head& moved) -> std::unique_ptr<Head> {
     UnriggedHead model = AlignImportedHead(*file, place, -43);
-    auto skin = MakeBlendshapeRig(*file, place, model, {*source, meanings}, moved);
+    auto skin = MakeBlendshapeRig(*file, place, model, {*source, meanings}, moved).rig;
     return skin ? RigUnriggedHead(std::move(model), std::move(*skin)) : nullptr;
   };
   const UnitTable units(Table("u", "jaw 26 6 0.75\nfield 2 43 47 20 20 both 0 5 0\n"));

@@ -10,6 +10,7 @@
 #include "fsm/image/byte_order.h"
 #include "fsm/image/colour_space.h"
 #include "fsm/image/image_codec.h"
+#include "fsm/image/shrink.h"
 #include "fsm/mesh/texture_atlas.h"
 #include "vm_protocol/core/lower_case.h"
 
@@ -169,7 +170,7 @@ std::optional<Image> GltfTextures::Decode(std::int64_t image) {
   try {
     auto picture = DecodePngOrJpeg(BytesOf(document_.ImageBytes(image)));
     if (!picture) return left_out(picture.error().text);
-    Shrink(*picture, TextureAtlas::kMaxSide);
+    HalveUntil(*picture, TextureAtlas::kMaxSide);
     return std::move(*picture);
   } catch (const vm::Failure& failure) {
     return left_out(head_.name + ": " + failure.error.text);

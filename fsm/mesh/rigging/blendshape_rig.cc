@@ -1,6 +1,7 @@
 #include "fsm/mesh/rigging/blendshape_rig.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "fsm/mesh/rig_unrigged_head.h"
 #include "fsm/mesh/rigging/shape_solver.h"
@@ -135,14 +136,12 @@ void AddShapes(const KnownShapes& known, const ShapeSolver& solver,
 
 }  // namespace
 
-std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
-                                         UnriggedHead& model, const ShapeMeanings& meanings,
-                                         const Head& driven, std::span<const FaceState> visemes,
-                                         std::vector<std::string>* unused) {
+BlendshapeRig MakeBlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
+                                UnriggedHead& model, const ShapeMeanings& meanings,
+                                const Head& driven, std::span<const FaceState> visemes) {
   constexpr std::size_t kFewest = 4;
-  const KnownShapes known = RecogniseShapes(file, to_ours, model, meanings.shapes);
-  if (unused) *unused = known.unused;
-  if (known.names.size() < kFewest) return std::nullopt;
+  KnownShapes known = RecogniseShapes(file, to_ours, model, meanings.shapes);
+  if (known.names.size() < kFewest) return {std::nullopt, std::move(known.unused)};
   DetachFromBones(file, known, model);
   ShapeSolver solver(meanings.source, driven);
   for (const FaceState& meaning : known.meanings) solver.Add(meaning);
@@ -152,7 +151,7 @@ std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similar
   rig.asymmetry_seed = driven.rig().data().asymmetry_seed;
   AddShapes(known, solver, FitDrivers(solver, rig.units, visemes), rig.channels);
   AddGazeShapes(known, file.eye_rig.gaze_ranges.value_or(GazeRanges{}), rig.channels);
-  return rig;
+  return {std::move(rig), std::move(known.unused)};
 }
 
 }  // namespace fsm
