@@ -4,7 +4,7 @@
 
 namespace fsm {
 
-std::optional<FaceLandmarks> FaceLandmarks::Of(const Head& head) {
+std::optional<FaceLandmarks> FaceLandmarks::Find(const Head& head) {
   bool complete = true;
   const auto at = [&](const std::string& name) {
     const auto found = head.landmarks().find(name);

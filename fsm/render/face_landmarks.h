@@ -13,7 +13,7 @@ struct FaceLandmarks {
   Sided<glm::vec3> cheilion, endocanthion, exocanthion, pupil, alare, zygion;
 
   /// Returns nothing for a head that lacks one of them.
-  static std::optional<FaceLandmarks> Of(const Head& head);
+  static std::optional<FaceLandmarks> Find(const Head& head);
 };
 
 }  // namespace fsm

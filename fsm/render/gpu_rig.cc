@@ -12,7 +12,7 @@
 #include "fsm/rig/rig_records.h"
 
 namespace fsm {
-const GlProgram& RigPrograms::Of(const RigRecords& records) {
+const GlProgram& RigPrograms::ProgramFor(const RigRecords& records) {
   auto& program = programs_[records.kernel];
   if (!program) {
     const std::string source =
@@ -50,7 +50,7 @@ void GpuRig::Fill(GLuint buffer, const std::vector<T>& values, GLenum usage) con
 
 void GpuRig::Add(const RigRecords& records) {
   Kernel& kernel = kernels_.emplace_back(
-      Kernel{&programs_.Of(records), {}, static_cast<std::uint32_t>(records.count)});
+      Kernel{&programs_.ProgramFor(records), {}, static_cast<std::uint32_t>(records.count)});
   gl_.GenBuffers(2, kernel.buffers.data());
   Fill(kernel.buffers[0], records.records, GL_STATIC_DRAW);
   Fill(kernel.buffers[1], records.entries, GL_STATIC_DRAW);
@@ -63,7 +63,7 @@ void GpuRig::Evaluate(const Rig& rig, std::span<const Input> faces) {
   std::vector<float> strengths;
   std::vector<glm::vec3> spring_offsets;
   for (const Input& face : faces) {
-    rig.FindInputs(*face.state, inputs);
+    rig.ComputeInputs(*face.state, inputs);
     states.push_back(inputs.state);
     strengths.insert(strengths.end(), inputs.strengths.begin(), inputs.strengths.end());
     assert(face.spring_offsets.empty() || face.spring_offsets.size() == spring_count_);

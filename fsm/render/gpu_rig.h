@@ -18,7 +18,7 @@ struct RigRecords;
 /// all heads of a context. Destroy while that context is current.
 class RigPrograms {
  public:
-  /// The bindings of buffers, which `Of` defines by name in the programs.
+  /// The bindings of buffers, which ProgramFor defines by name in the programs.
   enum Binding : GLuint {
     kPositions,
     kNormals,
@@ -33,7 +33,7 @@ class RigPrograms {
   /// Tells whether the driver has compute shaders and storage buffers (OpenGL 4.3).
   static bool Supported(const GlFunctions& gl) { return gl.has_compute; }
   /// Returns the program for such records. Throws std::runtime_error with the compiler's log.
-  const GlProgram& Of(const RigRecords& records);
+  const GlProgram& ProgramFor(const RigRecords& records);
 
  private:
   const GlFunctions& gl_;

@@ -5,7 +5,7 @@ namespace fsm {
 HeadDescription::HeadDescription(const Head& head, const HeadVertices& rest,
                                  const Appearance& appearance)
     : surface(head.shared_surface()) {
-  const auto landmarks = FaceLandmarks::Of(head);
+  const auto landmarks = FaceLandmarks::Find(head);
   if (landmarks && surface->uv.size() == rest.position.size()) {
     creases = WeighCreases(rest, *landmarks, appearance);
     skin = SkinPainting(surface, rest, *landmarks, appearance);

@@ -120,7 +120,7 @@ class GlRenderer : public Renderer {
   void DrawFrame(const Head& head, const Figure& figure, const Scene& scene, const auto& move) {
     const int width = viewport_.width > 0 ? viewport_.width : context_.width();
     const int height = viewport_.width > 0 ? viewport_.height : context_.height();
-    FindTarget(width, height);
+    UseTarget(width, height);
     target_->Bind();
     // A photo is soft, so hard edges beside it would stand out. Single hairs are thinner than a
     // pixel and would become rows of dots.
@@ -148,7 +148,7 @@ class GlRenderer : public Renderer {
   }
 
   /// Panes of several sizes alternate, so the targets of the last few sizes are kept.
-  void FindTarget(int width, int height) {
+  void UseTarget(int width, int height) {
     constexpr std::size_t kMax = 4;
     const auto fits = [&](const auto& target) {
       return target->width() == width && target->height() == height;

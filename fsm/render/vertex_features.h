@@ -20,13 +20,13 @@ class VertexFeatures {
  public:
   /// `creases`: those of the head, or empty.
   VertexFeatures(const Head& head, const CreaseWeights& creases);
-  const glm::vec3& RestOf(std::uint32_t vertex) const { return Of(vertex)[0]; }
+  const glm::vec3& RestOf(std::uint32_t vertex) const { return Row(vertex)[0]; }
   /// Returns the square of the distance of a vertex from the point interpolated between three
   /// others. It stops when the result exceeds `max`.
   float Difference(std::uint32_t vertex, const std::array<std::uint32_t, 3>& corners,
                    glm::vec3 weights, float max) const {
-    const glm::vec3* own = Of(vertex);
-    const std::array between{Of(corners[0]), Of(corners[1]), Of(corners[2])};
+    const glm::vec3* own = Row(vertex);
+    const std::array between{Row(corners[0]), Row(corners[1]), Row(corners[2])};
     const float weight = importance_[vertex] * importance_[vertex];
     float worst = 0;
     for (std::size_t k = 0; k < count_ && worst <= max; ++k) {
@@ -38,7 +38,7 @@ class VertexFeatures {
   }
 
  private:
-  const glm::vec3* Of(std::uint32_t vertex) const { return values_.data() + vertex * count_; }
+  const glm::vec3* Row(std::uint32_t vertex) const { return values_.data() + vertex * count_; }
   std::size_t count_ = 0;  // per vertex
   std::vector<glm::vec3> values_;
   std::vector<float> importance_;  // by vertex: factor on its differences

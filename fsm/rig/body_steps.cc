@@ -152,7 +152,7 @@ void PackSprings(const RigData& data, const char* kernel, KernelRecords& out) {
 }
 
 void ApplyNormals(const RigData& data, const MovedVertices& moved, StepWork& work) {
-  FindNormals(data.normals, moved.soft, work.position, work.normal);
+  ComputeNormals(data.normals, moved.soft, work.position, work.normal);
 }
 
 void CheckNormals(const RigData& data, const VertexChecker& checker) {

@@ -91,9 +91,9 @@ ChannelDrives::ChannelDrives(std::span<const Channel> channels) {
   }
 }
 
-void ChannelDrives::FindStrengths(std::span<const Channel> channels, const FaceState& state,
-                                  const Pose& pose, std::vector<float>& values,
-                                  std::vector<float>& out) const {
+void ChannelDrives::ComputeStrengths(std::span<const Channel> channels, const FaceState& state,
+                                     const Pose& pose, std::vector<float>& values,
+                                     std::vector<float>& out) const {
   values.clear();
   for (const Drive& drive : drives_) values.push_back(ValueOf(drive, state, pose));
   auto from = driver_from_.begin();

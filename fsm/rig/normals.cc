@@ -20,8 +20,8 @@ void AddNormals(std::span<const std::uint32_t> triangles, std::span<const glm::v
 
 }  // namespace
 
-void FindNormals(const NormalRig& rig, std::span<const std::uint32_t> soft,
-                 std::span<const glm::vec3> position, std::span<glm::vec3> normal) {
+void ComputeNormals(const NormalRig& rig, std::span<const std::uint32_t> soft,
+                    std::span<const glm::vec3> position, std::span<glm::vec3> normal) {
   for (const std::uint32_t i : soft) normal[i] = glm::vec3(0);
   AddNormals(rig.soft_triangles, position, normal, [&](std::uint32_t i) { return rig.Owner(i); });
   for (const std::uint32_t i : soft) normal[i] = step::UnitNormal(normal[i]);

@@ -18,8 +18,8 @@ struct NormalRig {
   std::uint32_t Owner(std::uint32_t vertex) const { return twin.empty() ? vertex : twin[vertex]; }
 };
 /// Computes the normals of `soft`, which lists each corner of the soft triangles once.
-void FindNormals(const NormalRig& rig, std::span<const std::uint32_t> soft,
-                 std::span<const glm::vec3> position, std::span<glm::vec3> normal);
+void ComputeNormals(const NormalRig& rig, std::span<const std::uint32_t> soft,
+                    std::span<const glm::vec3> position, std::span<glm::vec3> normal);
 
 /// Returns the unit normals of `count` vertices as area-weighted means of their triangles' normals.
 std::vector<glm::vec3> Normals(std::span<const std::uint32_t> triangles,

@@ -68,16 +68,16 @@ Rig::Rig(RigData data)
 void Rig::Evaluate(const FaceState& state, HeadVertices& out,
                    std::span<const glm::vec3> spring_offsets) const {
   thread_local RigInputs inputs;  // kept from frame to frame
-  FindInputs(state, inputs);
+  ComputeInputs(state, inputs);
   out.position = data_.Start();
   out.normal = data_.rest_normal;
   StepWork work{inputs.state, inputs.strengths, spring_offsets,
                 out.position, out.normal,       inputs.lip_gaps};
   for (const RigStep step : data_.steps) DefinitionOf(step).apply(data_, moved_, work);
-  FindCreasesAndLids(inputs.pose, out);
+  ComputeCreasesAndLids(inputs.pose, out);
 }
 
-void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
+void Rig::ComputeCreasesAndLids(const Pose& pose, HeadVertices& out) const {
   out.creases = {};
   if (data_.creases.at_rest) {
     out.creases = CreaseDepths(data_.units, pose.au, *data_.creases.at_rest);
@@ -88,17 +88,18 @@ void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
   for (const Side side : kSides) out.lids_shut[side] = pose.lids[side].close;
 }
 
-void Rig::FindInputs(const FaceState& state, RigInputs& inputs) const {
+void Rig::ComputeInputs(const FaceState& state, RigInputs& inputs) const {
   inputs.pose = MakePose(state, data_.units, combiner_);
   inputs.state = StateOf(data_, inputs.pose);
   inputs.strengths.clear();
-  drives_.FindStrengths(data_.channels, state, inputs.pose, inputs.drive_values, inputs.strengths);
+  drives_.ComputeStrengths(data_.channels, state, inputs.pose, inputs.drive_values,
+                           inputs.strengths);
 }
 
 MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   if (data_.mouth.seam.empty() || !data_.mouth.corners) return {};
   RigInputs inputs;
-  FindInputs(state, inputs);
+  ComputeInputs(state, inputs);
   std::vector<glm::vec3> position = data_.Start();
   StepWork work{inputs.state, inputs.strengths, {}, position, {}, inputs.lip_gaps};
   for (const RigStep step : data_.steps) {

@@ -47,7 +47,7 @@ class Rig {
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> spring_offsets = {}) const;
   /// Fills `inputs`, whose memory is reused from frame to frame.
-  void FindInputs(const FaceState& state, RigInputs& inputs) const;
+  void ComputeInputs(const FaceState& state, RigInputs& inputs) const;
   /// Measures the mouth before the head turns. Returns zeros if the head has no seam or corners of
   /// the mouth.
   MouthMeasure MeasureMouth(const FaceState& state) const;
@@ -56,7 +56,7 @@ class Rig {
 
  private:
   /// Fills all members of HeadVertices but positions and normals.
-  void FindCreasesAndLids(const Pose& pose, HeadVertices& out) const;
+  void ComputeCreasesAndLids(const Pose& pose, HeadVertices& out) const;
 
   RigData data_;
   UnitCombiner combiner_;

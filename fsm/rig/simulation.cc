@@ -67,7 +67,7 @@ void Simulation::RunTo(Time now, const StateAt& state_at) {
   while (*taken_ < last) Advance(*taken_ + 1, state_at);
   const double ahead = static_cast<double>(now.count()) / 1e6 -
                        static_cast<double>(last) / Simulation::kStepsPerSecond;
-  FindOffsets(state_at(now), static_cast<float>(ahead));
+  ComputeOffsets(state_at(now), static_cast<float>(ahead));
 }
 
 void Simulation::Begin(std::int64_t step, const StateAt& state_at) {
@@ -95,7 +95,7 @@ void Simulation::Advance(std::int64_t step, const StateAt& state_at) {
   taken_ = step;
 }
 
-void Simulation::FindOffsets(const FaceState& state, float ahead_s) {
+void Simulation::ComputeOffsets(const FaceState& state, float ahead_s) {
   const Carrier carrier(state);
   offsets_.resize(springs_.size());
   for (std::size_t i = 0; i < springs_.size(); ++i) {

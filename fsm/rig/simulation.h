@@ -54,7 +54,7 @@ class Simulation {
   static Propagator PropagatorOf(const Spring& spring, float seconds);
   void Begin(std::int64_t step, const StateAt& state_at);
   void Advance(std::int64_t step, const StateAt& state_at);
-  void FindOffsets(const FaceState& state, float ahead_s);
+  void ComputeOffsets(const FaceState& state, float ahead_s);
 
   std::vector<Spring> springs_;
   std::vector<Propagator> propagators_;

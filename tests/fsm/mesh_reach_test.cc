@@ -146,7 +146,7 @@ void AddPatch(float x, float y, float z, float size, std::vector<glm::vec3>& pla
 WeldedSurface Welded(const std::vector<glm::vec3>& place,
                      const std::vector<std::uint32_t>& triangles) {
   WeldedSurface surface(place, triangles, false);
-  surface.FindVisibility(place, {});
+  surface.ComputeVisibility(place, {});
   return surface;
 }
 
@@ -175,11 +175,11 @@ TEST(WeldedSurfaceTest, TrianglesInTooManyLayersAreRefused) {
     AddPatch(0, 0, static_cast<float>(i), 997, place, triangles);
   }
   WeldedSurface many(place, triangles, false);
-  EXPECT_THROW(many.FindVisibility(place, {}), std::runtime_error);
+  EXPECT_THROW(many.ComputeVisibility(place, {}), std::runtime_error);
   // Larger ones than a square metre are looked at as quickly as they are many.
   for (glm::vec3& p : place) p *= 1000.0F;
   WeldedSurface large(place, triangles, false);
-  EXPECT_NO_THROW(large.FindVisibility(place, {}));
+  EXPECT_NO_THROW(large.ComputeVisibility(place, {}));
 }
 
 TEST(SurfaceIndexTest, TrianglesInTooManyCellsAreRefused) {

@@ -363,10 +363,10 @@ TEST(WeldedSurfaceTest, WhatAnEyeballHidesIsNotSeen) {
   patch(22, 0, skin);
   for (const float x : {16.0F, 26.0F}) patch(x, 8, eye);
   WeldedSurface surface(place, skin, false);
-  surface.FindVisibility(place, eye);
+  surface.ComputeVisibility(place, eye);
   EXPECT_EQ(surface.visibility[0], 1);
   EXPECT_EQ(surface.visibility[4], 0);
-  surface.FindVisibility(place, {});
+  surface.ComputeVisibility(place, {});
   EXPECT_EQ(surface.visibility[4], 1);
 }
 

@@ -118,7 +118,7 @@ TEST(AppearanceTest, TheSkinIsPaintedAsItsRowsSay) {
   const auto head = MakeHead("galatea");
   HeadVertices rest;
   head->Evaluate({}, rest);
-  const auto landmarks = FaceLandmarks::Of(*head);
+  const auto landmarks = FaceLandmarks::Find(*head);
   ASSERT_TRUE(landmarks);
   const auto painted = [&](const std::string& row, const std::string& instead) {
     const Appearance mine("mine", row.empty() ? BuiltInText() : Changed(row, instead));
@@ -143,7 +143,7 @@ TEST(AppearanceTest, ASkinOfZerosAndOfExtremesIsPaintedAllTheSame) {
   const auto head = MakeHead("galatea");
   HeadVertices rest;
   head->Evaluate({}, rest);
-  const auto landmarks = FaceLandmarks::Of(*head);
+  const auto landmarks = FaceLandmarks::Find(*head);
   ASSERT_TRUE(landmarks);
   const Table built_in("built-in", BuiltInText());
   for (const std::string number : {"0", "-1000", "0.001"}) {

@@ -154,7 +154,7 @@ WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pair
   for (glm::vec3& p : carried.position) p = edges.Pulled(p + warp.Motion(p));
   // Points nearly in one plane do not determine the warp away from it.
   CheckVertices(carried.position, "the face, where the places that both faces have take it,");
-  carried.FindNormals();
+  carried.ComputeNormals();
   return carried;
 }
 
@@ -174,7 +174,7 @@ void PullTowards(WeldedSurface& pulled, const WeldedSurface& target, float reach
   }
   Diffuse(pulled, by, weight, rounds);
   for (std::size_t i = 0; i < pulled.position.size(); ++i) pulled.position[i] += 0.8f * by[i];
-  pulled.FindNormals();
+  pulled.ComputeNormals();
 }
 
 }  // namespace
@@ -189,7 +189,7 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   CheckVertices(to.position, "the head it is carried to");
   const auto prepared = [](const TransferSurface& face) {
     WeldedSurface surface(face.position, face.triangles, face.has_uv_seams);
-    surface.FindVisibility(face.position, face.eyes);
+    surface.ComputeVisibility(face.position, face.eyes);
     return surface;
   };
   WeldedSurface rest = prepared(from), target = prepared(to);

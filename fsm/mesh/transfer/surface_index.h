@@ -28,7 +28,7 @@ class SurfaceIndex {
     float distance_mm;
   };
   /// Returns the point nearest to a vertex of another surface, at most `reach` away. REQUIRES:
-  /// FindVisibility was called for both.
+  /// ComputeVisibility was called for both.
   std::optional<Hit> Find(const WeldedSurface& other, std::size_t vertex) const;
 
  private:

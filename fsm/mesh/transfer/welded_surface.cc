@@ -116,10 +116,10 @@ WeldedSurface::WeldedSurface(std::span<const glm::vec3> given_position,
   neighbours = NeighboursAlongEdges(position.size(), triangles);
   lip.assign(position.size(), 0);
   lid.assign(position.size(), 0);
-  FindNormals();
+  ComputeNormals();
 }
 
-void WeldedSurface::FindNormals() {
+void WeldedSurface::ComputeNormals() {
   normal.assign(position.size(), glm::vec3(0));
   for (const auto& t : triangles) {
     const glm::vec3 n =
@@ -129,8 +129,8 @@ void WeldedSurface::FindNormals() {
   for (glm::vec3& n : normal) n /= std::max(glm::length(n), 1e-12f);
 }
 
-void WeldedSurface::FindVisibility(std::span<const glm::vec3> given_position,
-                                   std::span<const std::uint32_t> eyes) {
+void WeldedSurface::ComputeVisibility(std::span<const glm::vec3> given_position,
+                                      std::span<const std::uint32_t> eyes) {
   constexpr float kClear = 0.5f, kBehind = 3;  // millimetres
   FrontDepth front(position);
   for (const auto& t : triangles) front.Rasterize(position[t[0]], position[t[1]], position[t[2]]);

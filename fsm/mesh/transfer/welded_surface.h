@@ -26,18 +26,18 @@ class WeldedSurface {
   /// Per vertex, whether it belongs to upper (1) or lower (-1) lip and lid, 0 = neither.
   std::vector<float> lip, lid;
   /// Per vertex, the visibility from the front: 1 = visible, 0 = more than a few millimetres behind
-  /// a visible surface, as the linings of mouths and eye sockets. Set by FindVisibility.
+  /// a visible surface, as the linings of mouths and eye sockets. Set by ComputeVisibility.
   std::vector<float> visibility;
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
-  void FindNormals();
+  void ComputeNormals();
   /// Computes `visibility`. `eyes`: triangles of the eyeballs, indices into `given_position`, which
   /// hide what is behind them. A triangle whose bounding box covers more than a square metre hides
   /// nothing. Throws std::runtime_error if the boxes together cover more than kMaxCovered, as
   /// hundreds of layers of triangles would. REQUIRES: everything is within kMaxReach.
   static constexpr std::int64_t kMaxCovered = 1 << 28;  ///< square millimetres
-  void FindVisibility(std::span<const glm::vec3> given_position,
-                      std::span<const std::uint32_t> eyes);
+  void ComputeVisibility(std::span<const glm::vec3> given_position,
+                         std::span<const std::uint32_t> eyes);
   /// Returns the mean length of the edges of a vertex; 0 if it has none.
   float MeanEdge(std::size_t vertex) const;
   std::uint32_t Nearest(glm::vec3 p) const;
