@@ -22,13 +22,12 @@ bool StartsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_
 /// Decodes a JPEG. Of several EXIF blocks the last one with an orientation counts.
 vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int most_size,
                                        int& orientation) {
-  fsm::JpegOptions options{.most_pixels = kMaxPixels, .enough_side = most_size, .exif = {}};
-  auto image = fsm::DecodeJpegAs(options, bytes);
-  if (!image) return image;
-  for (const auto& block : options.exif) {
+  auto decoded = fsm::DecodeJpegAs({.most_pixels = kMaxPixels, .enough_side = most_size}, bytes);
+  if (!decoded) return std::unexpected(decoded.error());
+  for (const auto& block : decoded->exif) {
     if (const int found = ExifOrientation(block); found != 1) orientation = found;
   }
-  return image;
+  return std::move(decoded->image);
 }
 
 vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {

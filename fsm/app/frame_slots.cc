@@ -58,7 +58,7 @@ void FrameSlots::SendState(vm::Time at) {
   add(state.blink.right);
   for (const auto& [units, side] : {std::pair(&state.au.left, 'L'), {&state.au.right, 'R'}}) {
     for (std::size_t unit = 0; unit < units->size(); ++unit) {
-      if (std::abs((*units)[unit]) < 0.002F) continue;
+      if (std::abs((*units)[unit]) < 0.002f) continue;
       text += fmt::format(" {}{}:{:.3g}", unit, side, (*units)[unit]);
     }
   }

@@ -17,8 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr float kMetres = 0.001F;
-constexpr float kMinMm = 0.01F;  ///< a morph target leaves out smaller displacements
+constexpr float kMetres = 0.001f;
+constexpr float kMinMm = 0.01f;  ///< a morph target leaves out smaller displacements
 
 template <typename T>
 constexpr GltfType TypeOf() {
@@ -232,7 +232,7 @@ class ForeignView {
   bool ShowsPhoto(const HeadSurface::Part& part) const {
     if (!surface_.textures.base_colour) return false;
     const auto shown = std::ranges::count_if(surface_.Corners(part), [this](std::uint32_t vertex) {
-      return surface_.textures.weight[vertex] > 0.5F;
+      return surface_.textures.weight[vertex] > 0.5f;
     });
     return 2 * shown > part.index_count;
   }
@@ -273,7 +273,7 @@ class ForeignView {
     }
     if (which.empty()) {  // a sparse accessor needs at least one element
       which.push_back(0);
-      by.emplace_back(0.0F);
+      by.emplace_back(0.0f);
     }
     json accessor = {{"componentType", static_cast<int>(GltfType::kFloat)},
                      {"count", rest.position.size()},
@@ -285,7 +285,7 @@ class ForeignView {
         {"indices",
          {{"bufferView", indices}, {"componentType", static_cast<int>(GltfType::kUint32)}}},
         {"values", {{"bufferView", values}}}};
-    by.emplace_back(0.0F);  // for the vertices that do not move
+    by.emplace_back(0.0f);  // for the vertices that do not move
     MarkBounds(by, accessor);
     gltf_.document["accessors"].push_back(std::move(accessor));
     return gltf_.document["accessors"].size() - 1;

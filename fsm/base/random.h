@@ -32,7 +32,7 @@ inline double RandomAt(std::uint64_t seed, std::uint64_t stream, std::int64_t in
 
 /// Returns the i-th pseudo-random number of a series, in 0..1.
 inline float Chance(std::uint64_t series, std::uint64_t i) {
-  return static_cast<float>(Scramble(series << 40 ^ i) >> 40) * 0x1p-24F;
+  return static_cast<float>(Scramble(series << 40 ^ i) >> 40) * 0x1p-24f;
 }
 
 /// Returns the noise at the lattice point (i, j), in -1..1. It has a hash of its own only because

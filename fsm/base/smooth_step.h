@@ -16,12 +16,12 @@ T SmoothStep(std::type_identity_t<T> from, std::type_identity_t<T> to, T x) {
 inline double SmoothStep(double u) { return SmoothStep(0, 1, u); }
 
 /// Returns the Gaussian weight at a distance of `squared` squared standard deviations.
-inline float Gaussian(float squared) { return std::exp(-0.5F * squared); }
+inline float Gaussian(float squared) { return std::exp(-0.5f * squared); }
 
 /// About exp(-(x / width)^2), cut to 0 from two widths on. A width of 0 or less gives 0.
 inline float Bell(float x, float width) {
   if (!(std::abs(x) < 2 * width)) return 0;
-  const float t = std::max(1 - x * x / (4 * width * width), 0.0F);
+  const float t = std::max(1 - x * x / (4 * width * width), 0.0f);
   return t * t * t * t;
 }
 

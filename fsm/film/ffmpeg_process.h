@@ -45,7 +45,7 @@ class FfmpegProcess {
 
   FfmpegProcess(pid_t pid, int input, int errors) : pid_(pid), input_(input), errors_(errors) {}
   /// Waits until standard error or, if `for_writing`, the input is ready. Returns false at the
-  /// deadline or when abandoned.
+  /// deadline or when cancelled.
   bool Wait(bool for_writing, Deadline deadline);
   void ReadErrors();
   std::unexpected<vm::Error> Fail(const std::string& what);

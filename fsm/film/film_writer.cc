@@ -136,6 +136,8 @@ class RawFilmWriter : public FilmWriter {
       const auto written = write(fd_, left.data(), left.size());
       if (written > 0) {
         left = left.subspan(static_cast<std::size_t>(written));
+      } else if (written == 0) {  // leaves errno as it was
+        return Fail("it takes no bytes");
       } else if (errno == EAGAIN) {
         pollfd room{fd_, POLLOUT, 0};
         if (poll(&room, 1, kReaderLimitMs) == 0) return Fail("nobody takes the frames");

@@ -13,7 +13,7 @@
 
 namespace fsm {
 
-/// Takes the colours of parts that the photo does not show from `head`.
+/// Takes the colours of parts that the photo of `photo_head` does not show.
 void CopyColours(const PhotoHead& photo_head, Palette& palette);
 
 /// Adds the sheet with hair, neck and clothes of a photo. It turns with the head as skin does.
@@ -38,7 +38,7 @@ void RemoveUnseenSkin(const PhotoHead& photo_head, std::span<const CageTag> tags
                       MeshBuilder& mesh);
 
 /// Gives every vertex of skin and sheet its texture coordinate in the photo, and lids and lips
-/// their own paint. `lip_inside`: colour of lips that roll inward if `head` has none.
+/// their own paint. `lip_inside`: colour of lips that roll inward if `photo_head` has none.
 void ApplyPhoto(const PhotoHead& photo_head, const PhotoSkin& skin, glm::vec3 lip_inside,
                 HeadSurface& surface);
 

@@ -23,15 +23,19 @@ vm::Result<Image> DecodePng(std::span<const std::uint8_t> bytes);
 vm::Result<Image> DecodeBmp(std::span<const std::uint8_t> bytes);
 vm::Result<Image> DecodeSgi(std::span<const std::uint8_t> bytes);
 
-/// Options for decoding a JPEG file, and the metadata it returns.
+/// Options for decoding a JPEG file.
 struct JpegOptions {
   std::int64_t most_pixels = 50'000'000;
   /// 0: full size; otherwise the smallest of 1/1, 1/2, 1/4, 1/8 whose longer side is at least this.
   int enough_side = 0;
-  std::vector<std::vector<std::uint8_t>> exif;  ///< out: the APP1 blocks
+};
+struct DecodedJpeg {
+  Image image;
+  std::vector<std::vector<std::uint8_t>> exif;  ///< the APP1 blocks
 };
 /// Decodes RGB, grey and CMYK, without applying the EXIF orientation. A truncated file is damaged.
-vm::Result<Image> DecodeJpegAs(JpegOptions& options, std::span<const std::uint8_t> bytes);
+vm::Result<DecodedJpeg> DecodeJpegAs(const JpegOptions& options,
+                                     std::span<const std::uint8_t> bytes);
 vm::Result<Image> DecodeJpeg(std::span<const std::uint8_t> bytes);
 /// Decodes PNG or JPEG, told apart by content.
 vm::Result<Image> DecodePngOrJpeg(std::span<const std::uint8_t> bytes);

@@ -60,7 +60,7 @@ enum class Outcome { kDone, kDamaged, kTooLarge };
 
 /// Only plain data may live here: on a damaged file longjmp skips destructors.
 Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const std::uint8_t> bytes,
-               JpegOptions& options, Image& out) {
+               const JpegOptions& options, DecodedJpeg& decoded) {
   if (setjmp(failure.back)) return Outcome::kDamaged;
   jpeg_mem_src(&info, bytes.data(), bytes.size());
   jpeg_save_markers(&info, JPEG_APP0 + 1, 0xffff);
@@ -69,7 +69,7 @@ Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const s
     return Outcome::kTooLarge;
   }
   for (const jpeg_marker_struct* m = info.marker_list; m; m = m->next) {
-    options.exif.emplace_back(m->data, m->data + m->data_length);
+    decoded.exif.emplace_back(m->data, m->data + m->data_length);
   }
   const unsigned longer =
       info.image_width > info.image_height ? info.image_width : info.image_height;
@@ -84,6 +84,7 @@ Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const s
   const bool inverted = info.saw_Adobe_marker;
   info.out_color_space = inked ? JCS_CMYK : JCS_RGB;
   jpeg_start_decompress(&info);
+  Image& out = decoded.image;
   out.width = static_cast<int>(info.output_width);
   out.height = static_cast<int>(info.output_height);
   out.rgba.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4,
@@ -152,14 +153,15 @@ std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality) {
   return out;
 }
 
-vm::Result<Image> DecodeJpegAs(JpegOptions& options, std::span<const std::uint8_t> bytes) {
+vm::Result<DecodedJpeg> DecodeJpegAs(const JpegOptions& options,
+                                     std::span<const std::uint8_t> bytes) {
   jpeg_decompress_struct info{};
   Failure failure{};
   info.err = jpeg_std_error(&failure.manager);
   failure.manager.error_exit = JumpBack;
   failure.manager.emit_message = RecordWarning;
   failure.progress.progress_monitor = CountScans;
-  Image out;
+  DecodedJpeg out;
   jpeg_create_decompress(&info);
   info.progress = &failure.progress;
   const Outcome outcome = Decode(info, failure, bytes, options, out);
@@ -185,13 +187,13 @@ vm::Result<Image> DecodeJpegAs(JpegOptions& options, std::span<const std::uint8_
 }
 
 vm::Result<Image> DecodeJpeg(std::span<const std::uint8_t> bytes) {
-  JpegOptions options;
-  auto image = DecodeJpegAs(options, bytes);
-  if (!image) return image;
-  if (auto fits = CheckSize(image->width, image->height); !fits) {
+  auto decoded = DecodeJpegAs({}, bytes);
+  if (!decoded) return std::unexpected(decoded.error());
+  Image& image = decoded->image;
+  if (auto fits = CheckSize(image.width, image.height); !fits) {
     return std::unexpected(fits.error());
   }
-  return image;
+  return std::move(image);
 }
 
 }  // namespace fsm

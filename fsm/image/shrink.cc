@@ -40,7 +40,7 @@ Image Shrunk(const Image& image, int width, int height) {
   Image out{width, height, {}};
   out.rgba.reserve(4 * out.Index(0, height));
   for (const Taps& rows : down) {
-    std::ranges::fill(sums, 0.0F);
+    std::ranges::fill(sums, 0.0f);
     const std::uint8_t* from = image.rgba.data() + static_cast<std::size_t>(rows.first) * row;
     for (const float weight : rows.weights) {
       for (std::size_t i = 0; i < row; ++i) sums[i] += weight * static_cast<float>(from[i]);
@@ -48,12 +48,12 @@ Image Shrunk(const Image& image, int width, int height) {
     }
     for (const Taps& columns : across) {
       const float* at = sums.data() + static_cast<std::size_t>(columns.first) * 4;
-      float mean[4] = {0.5F, 0.5F, 0.5F, 0.5F};
+      float mean[4] = {0.5f, 0.5f, 0.5f, 0.5f};
       for (const float weight : columns.weights) {
         for (float& channel : mean) channel += weight * *at++;
       }
       for (const float channel : mean) {
-        out.rgba.push_back(static_cast<std::uint8_t>(std::min(channel, 255.0F)));
+        out.rgba.push_back(static_cast<std::uint8_t>(std::min(channel, 255.0f)));
       }
     }
   }

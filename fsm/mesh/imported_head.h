@@ -37,14 +37,14 @@ struct ImportedHead {
   };
   std::string name;                 ///< the file name in messages
   std::vector<glm::vec3> position;  ///< all within kMaxReach
-  std::vector<glm::vec2>
-      texcoord;  ///< in the part's textures, v down, finite; per vertex, or empty
-  std::vector<glm::vec3>
-      vertex_colour;  ///< linear, factor on the part's colour; per vertex, or empty
+  /// In the part's textures, v down, finite; per vertex, or empty.
+  std::vector<glm::vec2> texcoord;
+  /// Linear, factor on the part's colour; per vertex, or empty.
+  std::vector<glm::vec3> vertex_colour;
   std::vector<Part> parts;
   std::vector<Image> base_colours;
-  std::vector<Detail>
-      details;  ///< detail i belongs to base colour i; may be shorter than `base_colours`
+  /// Detail i belongs to base colour i; may be shorter than `base_colours`.
+  std::vector<Detail> details;
   std::vector<PbrMaterial> pbr_materials;
   std::vector<Shape> shapes;
   std::vector<std::optional<Side>> eye;  ///< the eye that a vertex belongs to; per vertex, or empty

@@ -8,6 +8,7 @@
 #include "fsm/motion/inputs/motion_inputs.h"
 
 namespace fsm {
+
 EyeMotion::EyeMotion(const MotionInputs& in)
     : patterns_(in.tables.motions),
       gestures_(in.tables.gestures),

@@ -29,7 +29,7 @@ Appearance::Appearance(NumberTable numbers)
   for (const TableRow& row : table_.rows()) {
     const std::string name = NumberTable::RowName(row);
     if (name == row.key()) constants_ += ConstantOf(name, table_[name]);
-    if (name.ends_with(" direction") && std::ranges::count(table_[name], 0.0F) == 3)
+    if (name.ends_with(" direction") && std::ranges::count(table_[name], 0.0f) == 3)
       row.Refuse("a lamp that stands nowhere");
   }
   for (const auto& [name, material] : kSurfaces) {

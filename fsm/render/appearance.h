@@ -30,7 +30,7 @@ class Appearance : public AppearanceNumbers {
 
   /// REQUIRES: the table has rows for this material.
   const Surface& surface(Material material) const { return surfaces_.at(material); }
-  /// Returns the rows with names of one word as GLSL constants: "const vec3 sky_color =
+  /// Returns the rows with names of one word as GLSL constants: "const vec3 look_sky_colour =
   /// vec3(...);". The compiler folds them, so a number of the table costs nothing extra.
   const std::string& constants() const { return constants_; }
 

@@ -141,7 +141,7 @@ class PartDecimator {
       Corners corners = before.corners;
       std::ranges::replace(corners, v, to.vertex);
       const Triangle now = Between(corners);
-      if (glm::dot(before.normal, now.normal) < 0.3F * before.length * now.length) return false;
+      if (glm::dot(before.normal, now.normal) < 0.3f * before.length * now.length) return false;
       after_.emplace_back(t, now);
     }
     const auto settle = [&](std::uint32_t vertex) { return Settle(vertex, error); };
@@ -171,12 +171,12 @@ class PartDecimator {
       const glm::vec3 b = corners[1]->position - a, c = corners[2]->position - a;
       const float bb = glm::dot(b, b), bc = glm::dot(b, c), cc = glm::dot(c, c);
       const float pb = glm::dot(p - a, b), pc = glm::dot(p - a, c);
-      const float whole = std::max(bb * cc - bc * bc, 1e-12F);
+      const float whole = std::max(bb * cc - bc * bc, 1e-12f);
       // A point beside the triangle is moved to its edge, near the closest point, so that the error
       // is not underestimated.
       glm::vec3 weights(0, (cc * pb - bc * pc) / whole, (bb * pc - bc * pb) / whole);
       weights.x = 1 - weights.y - weights.z;
-      weights = glm::max(weights, 0.0F);
+      weights = glm::max(weights, 0.0f);
       weights /= weights.x + weights.y + weights.z;
       const float difference = features_.Difference(
           vertex, {corners[0]->number, corners[1]->number, corners[2]->number}, weights, best);
@@ -230,7 +230,7 @@ HeadTriangles CoarseTriangles(const Head& head, const CreaseWeights& creases, fl
   for (HeadSurface::Part part : surface.parts) {
     PartDecimator shrinking(features, surface.Corners(part), IsHair(part.material));
     // The least important vertices are removed first.
-    for (const float share : {0.25F, 0.5F, 1.0F}) shrinking.Shrink(share * error_mm);
+    for (const float share : {0.25f, 0.5f, 1.0f}) shrinking.Shrink(share * error_mm);
     part.first_index = static_cast<std::uint32_t>(coarse.indices.size());
     shrinking.Append(coarse.indices);
     part.index_count = static_cast<std::uint32_t>(coarse.indices.size()) - part.first_index;

@@ -12,7 +12,7 @@ namespace {
 
 /// Tells whether a triangle is opaque. `cut_out`: it is discarded where the photo is transparent.
 bool HidesAll(const HeadSurface& surface, std::span<const std::uint32_t> triangle, bool cut_out) {
-  glm::vec2 low(1e9F), high(-1e9F);
+  glm::vec2 low(1e9f), high(-1e9f);
   for (const std::uint32_t v : triangle) {
     if (surface.opacity[v] < 1) return false;
     low = glm::min(low, surface.textures.texcoord[v]);
@@ -128,7 +128,7 @@ class OrderMaker {
   /// Locks come before the shell of hair they lie on; ties are sorted by vertex index, so
   /// that the order is the same everywhere.
   SortedHair SortHair(std::span<const glm::vec3> rest) const {
-    constexpr float kBehind = 0.0F;  // z of the plane of the ears
+    constexpr float kBehind = 0.0f;  // z of the plane of the ears
     using Triangle = std::array<std::uint32_t, 3>;
     std::vector<Triangle> hair;
     for (const auto& part : triangles_.parts) {

@@ -10,9 +10,9 @@ namespace fsm {
 namespace {
 
 /// Skin within this distance (mm) of the eyeball's surface may be a lid.
-constexpr float kLidReach = 4.0F;
+constexpr float kLidReach = 4.0f;
 /// Only lid margins above and below the pupil count, within this distance (mm) to its sides.
-constexpr float kRimHalfWidth = 4.5F;
+constexpr float kRimHalfWidth = 4.5f;
 
 std::vector<std::uint32_t> VerticesOf(const HeadSurface& surface, Material material) {
   std::vector<std::uint32_t> found;
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> VerticesOf(const HeadSurface& surface, Material mater
 }
 
 glm::vec3 Centroid(std::span<const std::uint32_t> points, const HeadVertices& vertices) {
-  glm::vec3 sum(0.0F);
+  glm::vec3 sum(0.0f);
   for (const auto i : points) sum += vertices.position[i];
   return points.empty() ? sum : sum / static_cast<float>(points.size());
 }
@@ -101,17 +101,17 @@ Sided<MeasuredEye> EyeFinder::Measure(const HeadVertices& vertices) const {
     if (!iris_[side].empty()) {
       const glm::vec3 pupil = Centroid(iris_[side], vertices);
       const glm::vec3 outward = pupil - eye.centre;
-      if (glm::length(outward) > 1e-3F) eye.gaze = glm::normalize(outward);
+      if (glm::length(outward) > 1e-3f) eye.gaze = glm::normalize(outward);
       eye.iris_radius = 0;
       for (const auto i : iris_[side]) {
         const glm::vec3 p = vertices.position[i] - pupil;
         const float across = glm::length(p - eye.gaze * glm::dot(p, eye.gaze));
         eye.iris_radius = std::max(eye.iris_radius, across);
       }
-      eye.iris_radius = std::max(eye.iris_radius, 1.0F);
+      eye.iris_radius = std::max(eye.iris_radius, 1.0f);
     }
-    eye.upper_lid_y = Extreme(upper_rim_[side], vertices, true, eye.centre.y + eye.radius * 0.45F);
-    eye.lower_lid_y = Extreme(lower_rim_[side], vertices, false, eye.centre.y - eye.radius * 0.45F);
+    eye.upper_lid_y = Extreme(upper_rim_[side], vertices, true, eye.centre.y + eye.radius * 0.45f);
+    eye.lower_lid_y = Extreme(lower_rim_[side], vertices, false, eye.centre.y - eye.radius * 0.45f);
   }
   return eyes;
 }

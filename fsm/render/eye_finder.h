@@ -10,10 +10,10 @@ namespace fsm {
 
 /// What the eye shader needs to know of one eyeball, in the frame of the measured vertices.
 struct MeasuredEye {
-  glm::vec3 centre{0.0F};
-  float radius = 12.0F;
-  glm::vec3 gaze{0.0F, 0.0F, 1.0F};  ///< unit vector from the centre through the pupil
-  float iris_radius = 5.8F;
+  glm::vec3 centre{0.0f};
+  float radius = 12.0f;
+  glm::vec3 gaze{0.0f, 0.0f, 1.0f};  ///< unit vector from the centre through the pupil
+  float iris_radius = 5.8f;
   float upper_lid_y = 0;  ///< heights of the lid margins above and below the pupil
   float lower_lid_y = 0;
 };

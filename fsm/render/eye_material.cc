@@ -21,11 +21,11 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   const HeadSurface& surface = *frame.head.surface;
   // On a grey photo the sclera is grey, and so is the caruncle beside it.
   const glm::vec3 white = surface.eyes.right.white_colour;
-  const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
+  const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02f * white.g;
   const bool pictured = frame.head.base_colour() && surface.portrait.eyes;
   program_.Use();
   SetEyeballs(frame.view, eyes, surface.eyes);
-  program_.Set("flesh_red", grey ? 0.0F : 1.0F);
+  program_.Set("flesh_red", grey ? 0.0f : 1.0f);
   program_.Set("beside_photo", frame.head.base_colour() != nullptr);
   program_.Set("lamp_brightness", frame.lamp_brightness);
   program_.Set("pictured", pictured);
@@ -43,7 +43,7 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<MeasuredEye>& eyes,
     const MeasuredEye& eye = eyes[side];
     const auto i = static_cast<std::size_t>(side);
     const auto to_world = [&view](const glm::vec3& p) {
-      return glm::vec3(view.figure_to_world * glm::vec4(p, 1.0F));
+      return glm::vec3(view.figure_to_world * glm::vec4(p, 1.0f));
     };
     balls[i] = glm::vec4(to_world(eye.centre), eye.radius * scale);
     gazes[i] = rotation * eye.gaze / scale;
@@ -55,7 +55,7 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<MeasuredEye>& eyes,
   }
   const MeasuredEye& first = eyes.right;  // both have the same size
   const float plane = std::sqrt(
-      std::max(first.radius * first.radius - first.iris_radius * first.iris_radius, 1.0F));
+      std::max(first.radius * first.radius - first.iris_radius * first.iris_radius, 1.0f));
   program_.Set("ball", balls);
   program_.Set("gaze", gazes);
   program_.Set("lid_heights", lid_heights);

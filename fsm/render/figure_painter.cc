@@ -24,7 +24,7 @@ void FigurePainter::Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& 
   on_gpu.textures.Load(on_gpu.description, view.samples_per_mm);
   if (scene.view_mode == ViewMode::kTextureWithWireframe) {
     gl_.Enable(GL_POLYGON_OFFSET_FILL);
-    gl_.PolygonOffset(1.5F, 2.0F);
+    gl_.PolygonOffset(1.5f, 2.0f);
   }
   if (scene.view_mode != ViewMode::kWireframe) DrawParts(parts);
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
@@ -71,7 +71,7 @@ void FigurePainter::WarmUp(const std::vector<DrawnPart>& parts, GlTarget& target
 
 void FigurePainter::DrawLines(const std::vector<DrawnPart>& parts, const Scene& scene) {
   const bool alone = scene.view_mode == ViewMode::kWireframe;
-  const glm::vec4 colour = alone ? glm::vec4(scene.wire, 1.0F) : appearance_.line_over_texture;
+  const glm::vec4 colour = alone ? glm::vec4(scene.wire, 1.0f) : appearance_.line_over_texture;
   BeginBlending();
   gl_.DepthFunc(GL_LEQUAL);
   gl_.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);

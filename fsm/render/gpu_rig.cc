@@ -12,6 +12,7 @@
 #include "fsm/rig/rig_records.h"
 
 namespace fsm {
+
 const GlProgram& RigPrograms::ProgramFor(const RigRecords& records) {
   auto& program = programs_[records.kernel];
   if (!program) {

@@ -28,7 +28,7 @@ float TexelsPerMm(const HeadSurface& surface, const HeadVertices& rest) {
     texels += std::abs(a.x * b.y - a.y * b.x);
     area += seen;
   }
-  return area > 0 ? static_cast<float>(std::sqrt(texels / area)) : 0.0F;
+  return area > 0 ? static_cast<float>(std::sqrt(texels / area)) : 0.0f;
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
 // with four samples to a pixel that is smooth, while in software a filtered fetch costs as much as
 // the rest of a pixel. Close to a face, where texels would be visible, they are filtered.
 void HeadTextures::Load(HeadDescription& head, float samples_per_mm) {
-  samples_per_mm = std::max(samples_per_mm, 1e-3F);
+  samples_per_mm = std::max(samples_per_mm, 1e-3f);
   if (const SkinTexture* texture = head.skin.Texture()) LoadSkin(*texture, samples_per_mm);
   if (head.base_colour()) LoadBaseColour(head, samples_per_mm);
 }
@@ -70,7 +70,7 @@ void HeadTextures::LoadSkin(const SkinTexture& skin, float samples_per_mm) {
   const float texels_per_sample = SkinTexture::kTexelsPerMm / samples_per_mm;
   const Sampling sampling{
       std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 5),
-      texels_per_sample < 0.5F ? GL_LINEAR : GL_NEAREST};
+      texels_per_sample < 0.5f ? GL_LINEAR : GL_NEAREST};
   if (skin_ == sampling) return;
   skin_ = sampling;
   for (const auto& [texture, picture] :
@@ -83,10 +83,10 @@ void HeadTextures::LoadSkin(const SkinTexture& skin, float samples_per_mm) {
 
 HeadTextures::Sampling HeadTextures::SamplingOf(const Image& base_colour, float texels_per_sample) {
   // A photo has sharp edges, which look cut out with fewer texels per sample.
-  constexpr float kFewest = 0.9F;
+  constexpr float kFewest = 0.9f;
   constexpr int kMaxDoubled = 1 << 21;  // texels
   const int level =
-      static_cast<int>(std::floor(std::log2(std::max(texels_per_sample, 0.01F) / kFewest)));
+      static_cast<int>(std::floor(std::log2(std::max(texels_per_sample, 0.01f) / kFewest)));
   if (level >= 0) return {level, GL_NEAREST};
   // Doubling a photo costs memory; filtering it nearly doubles the time for a pixel.
   if (level == -1 && 4 * base_colour.width * base_colour.height <= kMaxDoubled)

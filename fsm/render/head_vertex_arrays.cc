@@ -52,7 +52,7 @@ PaintAttributes PaintOf(const HeadSurface& surface) {
   PaintAttributes paint{std::vector<glm::vec4>(count), std::vector<glm::vec4>(count, kNone),
                         std::vector<glm::vec4>(count, kNone), surface.opacity,
                         std::vector<glm::vec2>(count, glm::vec2(0))};
-  paint.opacity.resize(count, 1.0F);
+  paint.opacity.resize(count, 1.0f);
   for (std::size_t i = 0; i < count; ++i) {
     paint.colour[i] = glm::vec4(surface.albedo[i], surface.openness[i]);
   }
@@ -143,7 +143,7 @@ void HeadVertexArrays::UploadAttributes(const HeadVertices& rest) {
   const PaintAttributes paint = PaintOf(surface);
   std::vector<glm::vec3> relit_normal = rest.normal;
   for (std::size_t i = 0; i < relit_normal.size(); ++i) {
-    relit_normal[i] *= i < surface.portrait.relit.size() ? surface.portrait.relit[i] : 0.0F;
+    relit_normal[i] *= i < surface.portrait.relit.size() ? surface.portrait.relit[i] : 0.0f;
   }
   upload(VertexAttribute::kRestPosition, rest.position);
   upload(VertexAttribute::kAlbedoOpenness, paint.colour);
@@ -175,7 +175,7 @@ std::vector<DrawnPart> HeadVertexArrays::AddParts(const HeadTriangles& triangles
 const std::vector<DrawnPart>& HeadVertexArrays::PartsWithin(const Head& head, float error_mm) {
   // Below kFirst nothing is removed; above kLast skin shows through short hair.
   constexpr int kFirst = -6, kLast = -1;
-  const auto error_of = [](int level) { return std::exp2(0.5F * static_cast<float>(level)); };
+  const auto error_of = [](int level) { return std::exp2(0.5f * static_cast<float>(level)); };
   if (error_mm < error_of(kFirst)) return FinestParts();
   int level = kFirst;
   while (level < kLast && error_of(level + 1) <= error_mm) ++level;

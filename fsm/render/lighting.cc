@@ -19,7 +19,7 @@ Lamps LampsOf(const Appearance& appearance, const Scene& scene) {
   const auto set = [&out](std::size_t i, const auto& row, const DirectionalLight& wanted) {
     out.directions[i] = glm::normalize(wanted.direction.value_or(row.direction));
     // A white tint keeps the lamp's own brightness.
-    const float mean = (row.light.r + row.light.g + row.light.b) / 3.0F;
+    const float mean = (row.light.r + row.light.g + row.light.b) / 3.0f;
     out.colours[i] = wanted.strength * (wanted.tint ? *wanted.tint * mean : row.light);
   };
   set(0, appearance.lamp.key, scene.key);

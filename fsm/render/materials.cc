@@ -135,9 +135,9 @@ void Materials::Use(const DrawnPart& drawn) {
       BindOrPlain(head_->textures.base_colour(), TextureUnit::kBaseColour);
       return eye_.program().Use();
     case Material::kHair:
-      return UseHair(1.0F, 1.0F);
+      return UseHair(1.0f, 1.0f);
     case Material::kLash:
-      return UseHair(0.0F, 0.0F);
+      return UseHair(0.0f, 0.0f);
     default:
       return UseSurface(drawn);
   }
@@ -155,7 +155,7 @@ void Materials::UseSurface(const DrawnPart& drawn) {
   const GlProgram& program = inside ? mouth_.program() : relief ? surface_ : smooth_;
   program.Use();
   program.Set("wrap", surface.wrap);
-  program.Set("lobes", 2.0F * surface.lobes);  // the texture's value 0.5 stands for 1
+  program.Set("lobes", 2.0f * surface.lobes);  // the texture's value 0.5 stands for 1
   if (inside) {
     program.Set("lining", material == Material::kMouthInside);
   } else {

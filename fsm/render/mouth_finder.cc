@@ -24,7 +24,7 @@ std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& ver
   const Sided<std::uint32_t>& corners = *mouth_->corners;
   const Incisors& incisors = *mouth_->incisors;
   const glm::vec3 right = at(corners.right), left = at(corners.left);
-  const glm::vec3 middle = 0.5F * (right + left);
+  const glm::vec3 middle = 0.5f * (right + left);
   // The teeth's frame is upright in the skull, whatever the lips do.
   const auto unit = [](glm::vec3 v, glm::vec3 otherwise) {
     return glm::length(v) > 1 ? glm::normalize(v) : otherwise;
@@ -51,7 +51,7 @@ std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& ver
 }
 
 bool MouthFinder::Opening::IsShut() const {
-  constexpr float kShut = 0.02F;  // millimetres; less than a sample of any picture
+  constexpr float kShut = 0.02f;  // millimetres; less than a sample of any picture
   for (std::size_t k = 0; k < kColumns; ++k) {
     // Lips that touch have the same depth.
     const glm::vec3 apart = lips[k] - lips[k + kColumns];

@@ -25,8 +25,8 @@ float MouthMaterial::gap_mm() const {
 }
 
 float MouthMaterial::jaw_drop_mm() const {
-  constexpr float kOverlap = 1.3F;  // at rest the lower incisors stand behind the upper ones
-  return opening_ ? std::max(opening_->teeth.x - opening_->teeth.y + kOverlap, 0.0F) : 0;
+  constexpr float kOverlap = 1.3f;  // at rest the lower incisors stand behind the upper ones
+  return opening_ ? std::max(opening_->teeth.x - opening_->teeth.y + kOverlap, 0.0f) : 0;
 }
 
 void MouthMaterial::Begin(const MaterialFrame& frame) {

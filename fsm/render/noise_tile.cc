@@ -58,7 +58,7 @@ Image MakeStrandTile() {
     const float t = static_cast<float>(y % kApart) / kApart;
     const float along = knot(y / kApart) * (1 - t) + knot(y / kApart + 1) * t;
     // Half of the value is constant along the strand.
-    return 0.5F * along + 0.5F * Chance(series + 2, static_cast<std::uint64_t>(strand));
+    return 0.5f * along + 0.5f * Chance(series + 2, static_cast<std::uint64_t>(strand));
   };
   constexpr int kHairs = 6;
   constexpr int kLocks = (kStrandsAcross + kHairs - 1) / kHairs;

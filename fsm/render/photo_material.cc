@@ -38,9 +38,9 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
     program->Set("brightness", frame.lamp_brightness);
     program->Set("rest_to_world", frame.rest_to_world);
     program->Set("photo_light", frame.head.surface->portrait.light);
-    program->Set("lips_apart", glm::smoothstep(0.4F, 2.5F, mouth.gap_mm()));
+    program->Set("lips_apart", glm::smoothstep(0.4f, 2.5f, mouth.gap_mm()));
     // The photo is darkened below the chin; without one, nothing lies below it.
-    constexpr float kBelowAll = -1e4F;  // millimetres
+    constexpr float kBelowAll = -1e4f;  // millimetres
     program->Set("chin_y", frame.head.measures.chin_y.value_or(kBelowAll));
     program->Set("chin_drop", mouth.jaw_drop_mm());
   }
@@ -61,7 +61,7 @@ void PhotoMaterial::Use(const DrawnPart& drawn, const HeadDescription& head, boo
   program.Set("lashes", drawn.part.material == Material::kShutLash);
   program.Set("cut_out", cut_out);
   program.Set("depth_offset_mm",
-              cut_out && HasBlendedLayers(*head.surface) ? kDepthOffsetMm : 0.0F);
+              cut_out && HasBlendedLayers(*head.surface) ? kDepthOffsetMm : 0.0f);
 }
 
 }  // namespace fsm

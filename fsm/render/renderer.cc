@@ -129,7 +129,7 @@ class GlRenderer : public Renderer {
                      std::holds_alternative<Transparent>(scene.background)};
     const Background behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
-    const float alpha = std::clamp(figure.alpha, 0.0F, 1.0F);
+    const float alpha = std::clamp(figure.alpha, 0.0f, 1.0f);
     if (figure.enabled && alpha > 0) {
       GpuHead& on_gpu = heads_.Acquire(head);
       const HeadVertices& vertices = move(on_gpu);

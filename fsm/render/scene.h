@@ -41,14 +41,14 @@ using Background = std::variant<glm::vec3,  ///< a colour, sRGB 0..1
                                 /// Stretched over the view. Not null; a changed picture must be
                                 /// another object.
                                 std::shared_ptr<const Image>>;
-inline constexpr glm::vec3 kPlainBackground{0.35F, 0.42F, 0.48F};
+inline constexpr glm::vec3 kPlainBackground{0.35f, 0.42f, 0.48f};
 
 /// Everything in a picture except the head.
 struct Scene {
   Background background = kPlainBackground;
   ViewMode view_mode = ViewMode::kTexture;
   Camera camera;
-  glm::vec3 wire{0.10F, 0.55F, 0.42F};  ///< sRGB, line colour of ViewMode::kWireframe
+  glm::vec3 wire{0.10f, 0.55f, 0.42f};  ///< sRGB, line colour of ViewMode::kWireframe
   bool wire_on_black = false;           ///< black background for ViewMode::kWireframe
   DirectionalLight key, fill, rim;
 };

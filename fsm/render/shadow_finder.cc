@@ -9,16 +9,16 @@ namespace {
 
 // In the rest frame, millimetres. A surface that faces the light has its ellipsoid behind it, so
 // the ellipsoids may reach through the surface without shading it.
-constexpr glm::vec3 kSkullCentre{0.0F, -10.0F, 18.0F};
-constexpr glm::vec3 kSkullRadii{66.0F, 108.0F, 80.0F};
-constexpr glm::vec3 kNoseInset{0.0F, 3.0F, -13.0F};  // of the centre from the tip of the nose
-constexpr glm::vec3 kNoseRadii{9.0F, 11.0F, 13.0F};
+constexpr glm::vec3 kSkullCentre{0.0f, -10.0f, 18.0f};
+constexpr glm::vec3 kSkullRadii{66.0f, 108.0f, 80.0f};
+constexpr glm::vec3 kNoseInset{0.0f, 3.0f, -13.0f};  // of the centre from the tip of the nose
+constexpr glm::vec3 kNoseRadii{9.0f, 11.0f, 13.0f};
 /// Anchors at the sides are searched between these heights, millimetres.
-constexpr float kLowestSide = 0.0F;
-constexpr float kHighestSide = 60.0F;
+constexpr float kLowestSide = 0.0f;
+constexpr float kHighestSide = 60.0f;
 
 glm::mat4 ToUnitSphere(const glm::vec3& centre, const glm::vec3& radii) {
-  return glm::translate(glm::scale(glm::mat4(1.0F), 1.0F / radii), -centre);
+  return glm::translate(glm::scale(glm::mat4(1.0f), 1.0f / radii), -centre);
 }
 
 }  // namespace
@@ -43,15 +43,15 @@ ShadowFinder::ShadowFinder(const HeadSurface& surface, const HeadVertices& rest)
 glm::mat4 ShadowFinder::SpaceOf(const HeadVertices& vertices) const {
   const glm::vec3 right = vertices.position[anchors_->sides.right];
   const glm::vec3 left = vertices.position[anchors_->sides.left];
-  const glm::vec3 middle = (right + left) / 2.0F;
+  const glm::vec3 middle = (right + left) / 2.0f;
   glm::vec3 x = left - right;
   glm::vec3 z = vertices.position[anchors_->nose] - middle;
   // A degenerate head keeps the given axes.
-  x = glm::length(x) > 1 ? glm::normalize(x) : glm::vec3(1.0F, 0.0F, 0.0F);
+  x = glm::length(x) > 1 ? glm::normalize(x) : glm::vec3(1.0f, 0.0f, 0.0f);
   z -= x * glm::dot(x, z);
-  z = glm::length(z) > 1 ? glm::normalize(z) : glm::vec3(0.0F, 0.0F, 1.0F);
+  z = glm::length(z) > 1 ? glm::normalize(z) : glm::vec3(0.0f, 0.0f, 1.0f);
   const glm::vec3 y = glm::cross(z, x);
-  return {glm::vec4(x, 0.0F), glm::vec4(y, 0.0F), glm::vec4(z, 0.0F), glm::vec4(middle, 1.0F)};
+  return {glm::vec4(x, 0.0f), glm::vec4(y, 0.0f), glm::vec4(z, 0.0f), glm::vec4(middle, 1.0f)};
 }
 
 void ShadowFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
@@ -60,14 +60,14 @@ void ShadowFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
 }
 
 ShadowFinder::Occluders ShadowFinder::Measure(const HeadVertices& vertices) const {
-  constexpr glm::vec3 kNowhere{0.0F, 0.0F, -1e6F};
+  constexpr glm::vec3 kNowhere{0.0f, 0.0f, -1e6f};
   if (!anchors_) {
-    const glm::mat4 nothing = ToUnitSphere(kNowhere, glm::vec3(1.0F));
-    return {nothing, nothing, glm::mat3(1.0F)};
+    const glm::mat4 nothing = ToUnitSphere(kNowhere, glm::vec3(1.0f));
+    return {nothing, nothing, glm::mat3(1.0f)};
   }
   const glm::mat4 space = SpaceOf(vertices);
   const glm::mat4 to_rest = glm::inverse(space * rest_to_space_);
-  const glm::vec3 nose(to_rest * glm::vec4(vertices.position[anchors_->nose], 1.0F));
+  const glm::vec3 nose(to_rest * glm::vec4(vertices.position[anchors_->nose], 1.0f));
   return {ToUnitSphere(kSkullCentre, kSkullRadii) * to_rest,
           ToUnitSphere(nose + kNoseInset, kNoseRadii) * to_rest, glm::mat3(space * rest_to_space_)};
 }

@@ -39,7 +39,7 @@ class ShadowFinder {
   glm::mat4 SpaceOf(const HeadVertices& vertices) const;
 
   std::optional<Anchors> anchors_;
-  glm::mat4 rest_to_space_{1.0F};
+  glm::mat4 rest_to_space_{1.0f};
 };
 
 }  // namespace fsm

@@ -12,9 +12,9 @@ namespace fsm {
 
 /// Returns the profile of a narrow furrow between two low swellings.
 float CreaseRelief::Furrow(float off, float width) const {
-  if (std::abs(off) > 5.2F * width) return 0;
-  return -Bell(off, width) + skin_.crease.swelling * (Bell(off - 2.2F * width, 1.5F * width) +
-                                                      Bell(off + 2.2F * width, 1.5F * width));
+  if (std::abs(off) > 5.2f * width) return 0;
+  return -Bell(off, width) + skin_.crease.swelling * (Bell(off - 2.2f * width, 1.5f * width) +
+                                                      Bell(off + 2.2f * width, 1.5f * width));
 }
 
 float CreaseRelief::HeightAt(const glm::vec3& p) const {
@@ -37,14 +37,14 @@ void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) co
   const float brow_y = landmarks_.nasion.y + lines.above;
   if (p.y <= brow_y - 2 || p.y >= landmarks_.trichion.y) return;
   const float room = lines.room * (landmarks_.trichion.y - brow_y);
-  const float bow = lines.rise * std::sin((std::sqrt(side * side + 49) - 7) * 0.055F);
+  const float bow = lines.rise * std::sin((std::sqrt(side * side + 49) - 7) * 0.055f);
   for (const float& place : places) {
     const float reach = (lines.reach - lines.less * std::abs(place - lines.farthest)) *
-                        (&place == &places.back() ? lines.last : 1.0F);
-    const float sway = lines.sway_long * std::sin(p.x * (0.09F + 0.05F * place) + 11 * place) +
-                       lines.sway_short * std::sin(p.x * 0.27F + 7 * place);
-    const float deep = lines.depth + lines.deep_long * std::sin(p.x * 0.075F + 23 * place) +
-                       lines.deep_short * std::sin(p.x * 0.19F + 5 * place);
+                        (&place == &places.back() ? lines.last : 1.0f);
+    const float sway = lines.sway_long * std::sin(p.x * (0.09f + 0.05f * place) + 11 * place) +
+                       lines.sway_short * std::sin(p.x * 0.27f + 7 * place);
+    const float deep = lines.depth + lines.deep_long * std::sin(p.x * 0.075f + 23 * place) +
+                       lines.deep_short * std::sin(p.x * 0.19f + 5 * place);
     height += deep * Furrow(p.y - brow_y - room * place - bow - sway, lines.width) *
               SmoothStep(reach + lines.fades, reach - lines.fades, side);
   }
@@ -77,13 +77,13 @@ void CreaseRelief::AddBridge(const glm::vec3& p, float side, float& height) cons
 void CreaseRelief::AddCrowsFeet(const glm::vec3& p, float side, float& height) const {
   const auto& lines = skin_.crows_feet;
   const glm::vec2 out(side - landmarks_.exocanthion.left.x - 2,
-                      p.y - landmarks_.exocanthion.left.y + 0.5F);
+                      p.y - landmarks_.exocanthion.left.y + 0.5f);
   if (out.x <= -2) return;
   for (const float angle : ListOf(lines.directions)) {
     const glm::vec2 along(std::cos(angle), std::sin(angle));
     const float along_mm = glm::dot(out, along);
     const float across_mm = out.y * along.x - out.x * along.y;
-    const float bend = lines.bend * along_mm * along_mm * (angle > 0 ? -1.0F : 1.0F);
+    const float bend = lines.bend * along_mm * along_mm * (angle > 0 ? -1.0f : 1.0f);
     height += lines.depth * Furrow(across_mm + bend, lines.width) * lines.begin.Ramp(along_mm) *
               lines.end.Ramp(along_mm);
   }
@@ -96,8 +96,8 @@ void CreaseRelief::AddNasolabial(const glm::vec3& p, float side, float& height) 
   const float top = wing.y + fold.above;
   const float t = (top - p.y) / (top - corner.y);
   const float fold_x =
-      glm::mix(wing.x + fold.nose, corner.x + fold.mouth, std::clamp(t, 0.0F, 1.3F)) +
-      fold.bow * std::sin(std::clamp(t, 0.0F, 1.0F) * 3.1416F);
+      glm::mix(wing.x + fold.nose, corner.x + fold.mouth, std::clamp(t, 0.0f, 1.3f)) +
+      fold.bow * std::sin(std::clamp(t, 0.0f, 1.0f) * 3.1416f);
   // A slanting fold is wider if measured along x.
   height += fold.depth * Furrow((side - fold_x) * fold.slants, fold.width) * fold.begin.Ramp(t) *
             fold.end.Ramp(t);
@@ -151,7 +151,7 @@ CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landma
         front * between * (1 - over_nose) * (nasion.y + skin.nose_region.fade_down).Ramp(p.y);
     const bool creases = nose > 0 || face != glm::vec4(0);
     out.face.push_back(face);
-    out.nose_and_left.emplace_back(nose, creases ? skin.creased.left.Ramp(p.x) : 0.0F);
+    out.nose_and_left.emplace_back(nose, creases ? skin.creased.left.Ramp(p.x) : 0.0f);
   }
   return out;
 }

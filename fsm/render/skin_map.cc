@@ -11,7 +11,7 @@ SkinMap::SkinMap(const HeadSurface& surface, const HeadVertices& rest) {
   constexpr auto count = static_cast<std::size_t>(kCells) * kCells;
   kind.assign(count, kNone);
   position.resize(count);
-  outward_.assign(count, -1.0F);
+  outward_.assign(count, -1.0f);
   for (const auto& part : surface.parts) {
     if (part.material != Material::kSkin && part.material != Material::kLip) continue;
     const Kind what = part.material == Material::kSkin ? kSkin : kLip;
@@ -26,7 +26,7 @@ void SkinMap::Fill(const HeadSurface& surface, const HeadVertices& rest,
   std::array<glm::vec2, 3> uv;
   std::array<glm::vec3, 3> p;
   for (std::size_t k = 0; k < 3; ++k) {
-    uv[k] = surface.uv[corners[k]] * static_cast<float>(kCells) - 0.5F;
+    uv[k] = surface.uv[corners[k]] * static_cast<float>(kCells) - 0.5f;
     p[k] = rest.position[corners[k]];
   }
   const glm::vec2 e1 = uv[1] - uv[0];
@@ -35,7 +35,7 @@ void SkinMap::Fill(const HeadSurface& surface, const HeadVertices& rest,
   const auto [left, right] = std::minmax({uv[0].x, uv[1].x, uv[2].x});
   const auto [low, high] = std::minmax({uv[0].y, uv[1].y, uv[2].y});
   // A triangle across the seam at the back would smear over the whole map.
-  if (std::abs(area) < 1e-6F || right - left > static_cast<float>(kCells) / 2) return;
+  if (std::abs(area) < 1e-6f || right - left > static_cast<float>(kCells) / 2) return;
   const int x0 = std::max(static_cast<int>(std::ceil(left)), 0);
   const int x1 = std::min(static_cast<int>(std::floor(right)), kCells - 1);
   const int y0 = std::max(static_cast<int>(std::ceil(low)), 0);
@@ -46,7 +46,7 @@ void SkinMap::Fill(const HeadSurface& surface, const HeadVertices& rest,
       const float b = (d.x * e2.y - d.y * e2.x) / area;
       const float c = (e1.x * d.y - e1.y * d.x) / area;
       // The test reaches a little beyond the edges, so that no texel between triangles is missed.
-      if (b < -0.02F || c < -0.02F || b + c > 1.02F) continue;
+      if (b < -0.02f || c < -0.02f || b + c > 1.02f) continue;
       const glm::vec3 at = p[0] + b * (p[1] - p[0]) + c * (p[2] - p[0]);
       const float outward = std::hypot(at.x, at.z);
       const auto i = Index(x, y);
@@ -66,8 +66,8 @@ SkinMap::Kind SkinMap::KindAt(float u, float v) const {
 }
 
 glm::vec3 SkinMap::PositionAt(float u, float v) const {
-  const float x = std::clamp(u * kCells - 0.5F, 0.0F, kCells - 1.001F);
-  const float y = std::clamp(v * kCells - 0.5F, 0.0F, kCells - 1.001F);
+  const float x = std::clamp(u * kCells - 0.5f, 0.0f, kCells - 1.001f);
+  const float y = std::clamp(v * kCells - 0.5f, 0.0f, kCells - 1.001f);
   const int cx = static_cast<int>(x);
   const int cy = static_cast<int>(y);
   const float s = x - static_cast<float>(cx);
@@ -76,7 +76,7 @@ glm::vec3 SkinMap::PositionAt(float u, float v) const {
   // Beside a hole only the nearest cell is used.
   if (kind[i] == kNone || kind[i + 1] == kNone || kind[i + kCells] == kNone ||
       kind[i + kCells + 1] == kNone) {
-    return position[Index(static_cast<int>(x + 0.5F), static_cast<int>(y + 0.5F))];
+    return position[Index(static_cast<int>(x + 0.5f), static_cast<int>(y + 0.5f))];
   }
   return (position[i] * (1 - s) + position[i + 1] * s) * (1 - t) +
          (position[i + kCells] * (1 - s) + position[i + kCells + 1] * s) * t;

@@ -64,7 +64,7 @@ class RegionPainter {
   SkinRegion At(SkinMap::Kind kind, const glm::vec3& p, float broad, float fine) const {
     SkinRegion out;
     const float patch = skin_.patches.broad * broad + skin_.patches.fine * fine;
-    out.tint *= 1.0F + patch * skin_.patches.tint;
+    out.tint *= 1.0f + patch * skin_.patches.tint;
     if (kind == SkinMap::kLip) {
       out.cracks = 1;
       out.tint.a *=
@@ -95,12 +95,12 @@ class RegionPainter {
                                             skin_.chin.height);
     const float flush =
         skin_.blood.cheek * cheek + skin_.blood.nose_tip * tip + skin_.blood.chin * chin;
-    tint *= 1.0F - flush * (skin_.blood.even + skin_.blood.patches * fine) * skin_.blood.tint;
+    tint *= 1.0f - flush * (skin_.blood.even + skin_.blood.patches * fine) * skin_.blood.tint;
     const float high = skin_.forehead.above.Ramp(p.y - landmarks_.nasion.y);
     const float low = SmoothStep(
         landmarks_.stomion.y + skin_.lower_face.above,
         glm::mix(landmarks_.stomion.y, landmarks_.gnathion.y, skin_.lower_face.whole), p.y);
-    tint *= 1.0F - high * skin_.forehead.tint - low * skin_.lower_face.tint;
+    tint *= 1.0f - high * skin_.forehead.tint - low * skin_.lower_face.tint;
     tint *= AroundEye(side, p.y);
     tint.a *= Oil(p, tip, chin);
   }
@@ -116,7 +116,7 @@ class RegionPainter {
     const float corner = Bell(side - landmarks_.endocanthion.left.x - skin_.eye_corner.away,
                               skin_.eye_corner.width) *
                          Bell(y - landmarks_.endocanthion.left.y, skin_.eye_corner.height);
-    return 1.0F - below * skin_.below_eye.tint - lid * skin_.lid.tint -
+    return 1.0f - below * skin_.below_eye.tint - lid * skin_.lid.tint -
            corner * skin_.eye_corner.tint;
   }
 
@@ -128,7 +128,7 @@ class RegionPainter {
     const float bridge = Bell(side, skin_.oily_bridge.width) *
                          SmoothStep(landmarks_.subnasale.y, landmarks_.nasion.y, p.y) *
                          skin_.oily_bridge.above.Ramp(up);
-    const float bow_y = 0.5F * (landmarks_.subnasale.y + landmarks_.stomion.y);
+    const float bow_y = 0.5f * (landmarks_.subnasale.y + landmarks_.stomion.y);
     const float bow =
         Bell(side, skin_.oily_lip_bow.width) * Bell(p.y - bow_y, skin_.oily_lip_bow.height);
     const auto& bone = skin_.oily_cheek_bone;

@@ -11,7 +11,7 @@ namespace fsm {
 
 /// Slowly varying properties of the skin, one element for each cell of a SkinMap.
 struct SkinRegion {
-  glm::vec4 tint{1.0F};  ///< factors on colour and on highlights
+  glm::vec4 tint{1.0f};  ///< factors on colour and on highlights
   float pores = 0;       ///< how strongly they show, 0..1
   float cracks = 0;      ///< strength of the lines of the lips, 0..1
 };

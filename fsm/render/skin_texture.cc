@@ -22,7 +22,7 @@ std::size_t Texel(int x, int y) {
 }
 
 std::uint8_t Byte(float value) {
-  return static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
+  return static_cast<std::uint8_t>(std::clamp(value + 0.5f, 0.0f, 255.0f));
 }
 
 // ---- the finest detail: a tile repeated over the skin
@@ -31,7 +31,7 @@ constexpr int kTile = 256;
 
 struct Fine {
   float pore = 0, crack = 0, grain = 0;  // darkness of pores and lip lines; noise of colour
-  glm::vec2 pore_slope{0.0F}, crack_slope{0.0F};
+  glm::vec2 pore_slope{0.0f}, crack_slope{0.0f};
 };
 
 std::size_t InTile(int x, int y) {
@@ -51,9 +51,9 @@ std::vector<Fine> MakeFineTile(const Appearance& appearance) {
       const float radius = appearance.skin.pore.radius.At(Chance(SkinSeries::kPoreRadius, n));
       for (int ty = y - 2; ty <= y + kApart + 2; ++ty) {
         for (int tx = x - 2; tx <= x + kApart + 2; ++tx) {
-          const float dx = static_cast<float>(tx) + 0.5F - px;
-          const float dy = static_cast<float>(ty) + 0.5F - py;
-          const float w = std::max(0.0F, 1 - (dx * dx + dy * dy) / (radius * radius));
+          const float dx = static_cast<float>(tx) + 0.5f - px;
+          const float dy = static_cast<float>(ty) + 0.5f - py;
+          const float w = std::max(0.0f, 1 - (dx * dx + dy * dy) / (radius * radius));
           float& pore = tile[InTile(tx, ty)].pore;
           pore = std::max(pore, w * w * deep);
         }
@@ -71,7 +71,7 @@ std::vector<Fine> MakeFineTile(const Appearance& appearance) {
       const float t = static_cast<float>(y % 16) / 16;
       f.crack = (Chance(SkinSeries::kLipLine, at(x / 2, y / 16)) * (1 - t) +
                  Chance(SkinSeries::kLipLine, at(x / 2, (y / 16 + 1) % 16)) * t) -
-                0.5F;
+                0.5f;
     }
   }
   const float between = 2 / SkinTexture::kTexelsPerMm;  // millimetres between the two neighbours
@@ -107,9 +107,9 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
   std::vector<SkinRegion> row(kCells + 1);
   for (int y = first; y < last; ++y) {
     // A cell's value applies at its centre.
-    const float at_y = (static_cast<float>(y) + 0.5F) / kStep - 0.5F;
+    const float at_y = (static_cast<float>(y) + 0.5f) / kStep - 0.5f;
     const int cy = std::clamp(static_cast<int>(std::floor(at_y)), 0, kCells - 2);
-    const float ty = std::clamp(at_y - static_cast<float>(cy), 0.0F, 1.0F);
+    const float ty = std::clamp(at_y - static_cast<float>(cy), 0.0f, 1.0f);
     for (int x = 0; x < kCells; ++x) {
       row[static_cast<std::size_t>(x)] =
           Between(regions[SkinMap::Index(x, cy)], regions[SkinMap::Index(x, cy + 1)], ty);
@@ -119,16 +119,16 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
     std::uint8_t* relief = &out.relief.rgba[4 * Texel(0, y)];
     for (int x = 0; x < kSide; ++x, tint += 4, relief += 4) {
       const int shifted = std::max(x - kStep / 2, 0);
-      const float tx = (static_cast<float>(shifted % kStep) + 0.5F) / kStep;
+      const float tx = (static_cast<float>(shifted % kStep) + 0.5f) / kStep;
       const auto cx = static_cast<std::size_t>(shifted / kStep);
       const SkinRegion r = Between(row[cx], row[cx + 1], tx);
       const Fine& f = tile[InTile(x, y)];
       const float pore = r.pores * f.pore;
       const float crack = r.cracks * f.crack;
       const glm::vec4 c =
-          128.0F * r.tint * (1.0F - pore * pore_tint + crack * crack_tint + f.grain * grain_tint);
+          128.0f * r.tint * (1.0f - pore * pore_tint + crack * crack_tint + f.grain * grain_tint);
       for (int k = 0; k < 4; ++k) tint[k] = Byte(c[k]);
-      const glm::vec2 slope = 128.0F + 254.0F * (r.pores * f.pore_slope + r.cracks * f.crack_slope);
+      const glm::vec2 slope = 128.0f + 254.0f * (r.pores * f.pore_slope + r.cracks * f.crack_slope);
       relief[0] = Byte(slope.x);
       relief[1] = Byte(slope.y);
       relief[2] = relief[3] = 128;
@@ -143,7 +143,7 @@ void PaintCreases(const SkinMap& map, const CreaseRelief& creases, int first, in
                   SkinTexture& out) {
   constexpr int kBlock = 8;
   std::array<float, (kBlock + 1) * (kBlock + 1)> height;
-  const auto uv = [](int texel) { return (static_cast<float>(texel) + 0.5F) / kSide; };
+  const auto uv = [](int texel) { return (static_cast<float>(texel) + 0.5f) / kSide; };
   for (int by = first; by < last; by += kBlock) {
     for (int bx = kSide / 8; bx < kSide * 7 / 8; bx += kBlock) {
       if (map.KindAt(uv(bx + kBlock / 2), uv(by + kBlock / 2)) != SkinMap::kSkin) continue;
@@ -185,8 +185,8 @@ void Stamp(float x, float y, float radius, Paint paint) {
   const int cy = static_cast<int>(y);
   for (int ty = std::max(cy - reach, 0); ty <= std::min(cy + reach, kSide - 1); ++ty) {
     for (int tx = std::max(cx - reach, 0); tx <= std::min(cx + reach, kSide - 1); ++tx) {
-      const float dx = static_cast<float>(tx) + 0.5F - x;
-      const float dy = static_cast<float>(ty) + 0.5F - y;
+      const float dx = static_cast<float>(tx) + 0.5f - x;
+      const float dy = static_cast<float>(ty) + 0.5f - y;
       const float distance2 = (dx * dx + dy * dy) / (radius * radius);
       if (distance2 < 1) paint(Texel(tx, ty), (1 - distance2) * (1 - distance2));
     }
@@ -198,8 +198,8 @@ void PaintFreckles(const SkinMap& map, const FaceLandmarks& landmarks, const App
                    SkinTexture& out) {
   const auto& skin = appearance.skin;
   for (std::uint64_t n = 0; static_cast<float>(n) < 100 * skin.freckles.hundreds; ++n) {
-    const float x = kSide * (0.18F + 0.64F * Chance(SkinSeries::kFreckleX, n));
-    const float y = kSide * (0.25F + 0.6F * Chance(SkinSeries::kFreckleY, n));
+    const float x = kSide * (0.18f + 0.64f * Chance(SkinSeries::kFreckleX, n));
+    const float y = kSide * (0.25f + 0.6f * Chance(SkinSeries::kFreckleY, n));
     if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) continue;
     const glm::vec3 p = map.PositionAt(x / kSide, y / kSide);
     const float near_cheek =
@@ -215,7 +215,7 @@ void PaintFreckles(const SkinMap& map, const FaceLandmarks& landmarks, const App
     const float radius =
         mole ? skin.moles.radius : skin.freckle.radius.At(Chance(SkinSeries::kFreckleRadius, n));
     Stamp(x, y, radius,
-          [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * skin.freckle.tint); });
+          [&](std::size_t i, float w) { Tint(out, i, 1.0f - w * strength * skin.freckle.tint); });
   }
 }
 
@@ -224,11 +224,11 @@ void PaintVessels(const SkinMap& map, const FaceLandmarks& landmarks, const Appe
                   SkinTexture& out) {
   const auto& skin = appearance.skin;
   for (std::uint64_t n = 0; static_cast<float>(n) < skin.vessels.count; ++n) {
-    float x = kSide * (0.25F + 0.5F * Chance(SkinSeries::kVesselX, n));
-    float y = kSide * (0.42F + 0.22F * Chance(SkinSeries::kVesselY, n));
-    float turn = 6.2832F * Chance(SkinSeries::kVesselWay, n);
+    float x = kSide * (0.25f + 0.5f * Chance(SkinSeries::kVesselX, n));
+    float y = kSide * (0.42f + 0.22f * Chance(SkinSeries::kVesselY, n));
+    float turn = 6.2832f * Chance(SkinSeries::kVesselWay, n);
     for (std::uint64_t step = 0; static_cast<float>(step) < skin.vessels.length; ++step) {
-      turn += skin.vessels.bend * (Chance(SkinSeries::kVesselBend, n * 64 + step) - 0.5F);
+      turn += skin.vessels.bend * (Chance(SkinSeries::kVesselBend, n * 64 + step) - 0.5f);
       x += std::cos(turn);
       y += std::sin(turn);
       if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) break;
@@ -239,9 +239,9 @@ void PaintVessels(const SkinMap& map, const FaceLandmarks& landmarks, const Appe
       const float cheek = Bell(std::abs(p.x) - skin.vessels.cheek_side, skin.vessels.cheek_width) *
                           Bell(p.y - landmarks.pronasale.y, skin.vessels.cheek_width);
       const float strength = skin.vessels.strength * (ala + skin.vessels.cheek * cheek);
-      if (strength < 0.01F) continue;
+      if (strength < 0.01f) continue;
       Stamp(x, y, skin.vessels.radius,
-            [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * skin.vessels.tint); });
+            [&](std::size_t i, float w) { Tint(out, i, 1.0f - w * strength * skin.vessels.tint); });
     }
   }
 }

@@ -14,7 +14,7 @@ class Appearance;
 /// HeadSurface::uv, the first row at v = 0.
 struct SkinTexture {
   static constexpr int kSide = 1024;
-  static constexpr float kTexelsPerMm = 3.3F;  ///< approximate, on the front of the face
+  static constexpr float kTexelsPerMm = 3.3f;  ///< approximate, on the front of the face
   /// Factors on the surface's colour (rgb) and on its highlights (a), 128 = 1.
   Image tint;
   /// Slopes in the directions of growing u and v about 128: of pores and lines (rg, 127 = 0.5), and

@@ -14,8 +14,8 @@ constexpr float kOpenMm = 4;        // from occluded to open, from transparent t
 constexpr float kUnrolledMm = 150;  // across the skin's texture, which is about 310 mm wide
 constexpr float kCreaseMm = 2;      // from no crease to a full one
 constexpr float kStrandMm = 2;      // from no to dense hair; from a lock's middle to its side
-constexpr float kTileMm = 0.5F;     // per millimetre along or across the hairs
-constexpr float kPhotoMm = 0.5F;    // per millimetre in the photo
+constexpr float kTileMm = 0.5f;     // per millimetre along or across the hairs
+constexpr float kPhotoMm = 0.5f;    // per millimetre in the photo
 constexpr float kPhotoWidth = 300;  // assumed width of a photo, millimetres
 /// A vertex that a blink moves this far (mm) is on a lid; its error is multiplied by the second
 /// number.
@@ -32,7 +32,7 @@ std::vector<FaceState> FarStates() {
     states.push_back(state);
   };
   add({1, 2, 5, 25}, 20, 0);  // surprise
-  add({6, 12, 25}, 6, 0.5F);  // a laugh
+  add({6, 12, 25}, 6, 0.5f);  // a laugh
   add({4, 9, 10, 17}, 0, 1);  // disgust, eyes shut
   add({18, 22}, 4, 0);        // lips forward
   add({15, 20, 24}, 0, 0);    // lips stretched and pressed
@@ -66,7 +66,7 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
     auto& column = columns.emplace_back(vertices);
     for (std::size_t i = 0; i < vertices; ++i) column[i] = value(i);
   };
-  constexpr float kDarkest = 0.02F;  // darker colours count as equal
+  constexpr float kDarkest = 0.02f;  // darker colours count as equal
   add(true, [&](std::size_t i) { return kColourMm * glm::log(surface.albedo[i] + kDarkest); });
   add(true, [&](std::size_t i) {
     return kOpenMm * glm::vec3(surface.openness[i],

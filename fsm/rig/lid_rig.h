@@ -20,8 +20,8 @@ struct LidRig {
   };
   std::vector<Vertex> vertices;
   Sided<EyeTransform> eyes;
-  Sided<glm::vec3>
-      ball;  ///< centres of the eyeballs on the head the lids were made for (ProxyForm)
+  /// Centres of the eyeballs on the head the lids were made for (ProxyForm).
+  Sided<glm::vec3> ball;
   float cornea_centre = 0;  ///< from the ball's centre to the cornea's, millimetres
 };
 

@@ -14,9 +14,9 @@ namespace fsm {
 
 /// Vertex positions and normals of one state. The caller reuses them from frame to frame.
 struct HeadVertices {
-  std::vector<glm::vec3>
-      position;  ///< N x 3 float, millimetres; x to the viewer's right, y up, z to the
-                 ///< viewer; origin midway between the two ear canals (tragi)
+  /// N x 3 float, millimetres; x to the viewer's right, y up, z to the viewer; origin midway
+  /// between the two ear canals (tragi).
+  std::vector<glm::vec3> position;
   std::vector<glm::vec3> normal;  ///< N x 3 float, unit length
   Creases creases{};
   Sided<float> lids_shut;  ///< 0 = as at rest, 1 = fully shut

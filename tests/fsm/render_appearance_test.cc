@@ -65,7 +65,7 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
       {"\nexposure            0.44", "\nexposure 1e9",
        "'1e9' found where -1000 to 1000 was expected"},
       {"\nexposure            0.44", "\nexposures 0.44", "'exposures' is not known"},
-      {"\nexposure            0.44", "\nsky_color 1 1 1", "'sky_color' is there twice"},
+      {"\nexposure            0.44", "\nsky_colour 1 1 1", "'sky_colour' is there twice"},
       {"\n" + Row("wrap skin"), "\nwrap wood 1 2 3",
        "'wrap wood' is not known; known are wrap cloth, wrap gums"},
       {"\n" + Row("wrap skin"), "\nwrap skin 0.6 0.4", "'wrap skin' needs 3 numbers"},
@@ -84,10 +84,10 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
 }
 
 TEST(AppearanceTest, NumbersReachSurfacesAndShaders) {
-  const Appearance mine("mine", "wrap cloth 0.75 0.25 0.25\nexposure 0.5\nsky_color 0.25 0.5 1\n");
+  const Appearance mine("mine", "wrap cloth 0.75 0.25 0.25\nexposure 0.5\nsky_colour 0.25 0.5 1\n");
   EXPECT_EQ(mine.surface(Material::kCloth).wrap, glm::vec3(0.75F, 0.25F, 0.25F));
   EXPECT_EQ(Appearance::BuiltIn().surface(Material::kCloth).wrap, glm::vec3(0.25F));
-  EXPECT_NE(mine.constants().find("const vec3 look_sky_color = vec3(0.25, 0.5, 1);\n"),
+  EXPECT_NE(mine.constants().find("const vec3 look_sky_colour = vec3(0.25, 0.5, 1);\n"),
             std::string::npos);
   EXPECT_NE(mine.constants().find("const float look_exposure = float(0.5);\n"), std::string::npos);
 }

@@ -14,8 +14,8 @@ struct GltfMaterial {
   struct Texture {
     std::int64_t index = -1;
     float strength = 1;
-    const nlohmann::json* reference =
-        nullptr;  ///< the reference to it, valid as long as the document
+    /// The reference to it, valid as long as the document.
+    const nlohmann::json* reference = nullptr;
   };
   std::optional<PbrMaterial> pbr;  ///< none: unlit (KHR_materials_unlit, or no material)
   Texture normal, metallic_roughness, occlusion, emissive;

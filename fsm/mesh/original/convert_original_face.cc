@@ -220,7 +220,7 @@ class OriginalBuilder {
 
   void NameLandmarks() {
     for (const auto& [name, point] : kNamedPoints) model_.landmarks[name] = PositionOf(point);
-    model_.landmarks["stomion"] = 0.5F * (PositionOf(kLipMiddle) + PositionOf({1, 37}));
+    model_.landmarks["stomion"] = 0.5f * (PositionOf(kLipMiddle) + PositionOf({1, 37}));
     const glm::vec3 middle = space_.ToMm(glm::vec3(0));
     model_.view = ParallelView{middle, space_.ToMm(glm::vec3(1, 0, 0)).x - middle.x};
   }

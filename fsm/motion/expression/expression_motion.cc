@@ -70,7 +70,7 @@ void ExpressionMotion::ShowSpacePoint(vm::Time now, const EmotionSpace::Point& p
   if (move) timing.lag_ms = {};
   const vm::Time onset = move.value_or(OnsetOf({}));
   Plan(now, tables_.emotion_space.LookOf(point), timing, onset, vm::Time(0));
-  shown_.MoveTo(now, std::min(1.0F, std::hypot(point[0], point[1], point[2])), onset);
+  shown_.MoveTo(now, std::min(1.0f, std::hypot(point[0], point[1], point[2])), onset);
 }
 
 void ExpressionMotion::Plan(vm::Time now, const FaceLook& look, const Expression::Timing& timing,
@@ -82,7 +82,7 @@ void ExpressionMotion::Plan(vm::Time now, const FaceLook& look, const Expression
       regions_[side][region].Visit(now, look, onset, duration, lag);
     }
   }
-  onset_end_ = now + shown_.Visit(now, 1.0F, onset, duration);
+  onset_end_ = now + shown_.Visit(now, 1.0f, onset, duration);
   end_ = duration > vm::Time(0) ? std::optional(now + duration) : std::nullopt;
 }
 
@@ -91,7 +91,7 @@ void ExpressionMotion::Neutral(vm::Time now) {
   for (const Side side : kSides) {
     for (auto& region : regions_[side]) region.Plan(now, FaceLook{}, now, offset);
   }
-  shown_.MoveTo(now, 0.0F, offset);
+  shown_.MoveTo(now, 0.0f, offset);
   onset_end_ = now + offset;
   end_.reset();
 }
@@ -125,7 +125,7 @@ void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   for (std::size_t i = 0; i < emotions_.size(); ++i) {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
-    layers.AddSignal("expression", std::min(1.0F, weight));
+    layers.AddSignal("expression", std::min(1.0f, weight));
     const auto found = expressions_.find(tables_.unit_list.face_slots[i].emotion);
     if (found == expressions_.end()) continue;
     AddTo(layers.Layer("emotions").look, found->second.LookOf(1, weight), 1);

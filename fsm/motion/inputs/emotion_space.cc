@@ -22,7 +22,7 @@ std::vector<float> Through(const std::vector<EmotionSpace::Layer>& layers,
     for (const std::vector<float>& row : layer.rows) {
       float sum = 0;
       for (std::size_t i = 0; i < row.size(); ++i) sum += row[i] * values[i];
-      outputs.push_back(layer.rectified ? std::max(sum, 0.0F) : sum);
+      outputs.push_back(layer.rectified ? std::max(sum, 0.0f) : sum);
     }
     values = std::move(outputs);
   }
@@ -87,12 +87,12 @@ EmotionSpace::Point EmotionSpace::PointOf(std::span<const float> ratios) const {
 
 std::vector<float> EmotionSpace::RatiosAt(const Point& point) const {
   std::vector<float> ratios = Through(decoder, {point.begin(), point.end()});
-  for (float& ratio : ratios) ratio = std::clamp(ratio, 0.0F, 2.0F);
+  for (float& ratio : ratios) ratio = std::clamp(ratio, 0.0f, 2.0f);
   return ratios;
 }
 
 FaceLook EmotionSpace::LookOf(const Point& point) const {
-  constexpr float kSeen = 0.02F;  // smaller strengths are noise of the network
+  constexpr float kSeen = 0.02f;  // smaller strengths are noise of the network
   FaceLook look;
   const std::vector<float> ratios = RatiosAt(point);
   for (std::size_t i = 0; i < units.size(); ++i) {

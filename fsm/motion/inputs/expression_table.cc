@@ -36,7 +36,7 @@ void ReadBegins(const TableRow& row, const UnitNames& names, ExpressionTable& ex
   FaceLook begins = ReadLook(row, 3, names);
   for (const Side side : kSides) {
     for (const float from : begins.au[side]) {
-      if (from > 0.9F) row.Refuse("strengths from 0 to 0.9 expected");
+      if (from > 0.9f) row.Refuse("strengths from 0 to 0.9 expected");
     }
     if (begins.gaze[side] != EyeAngles{}) row.Refuse("action units expected, and no gaze");
   }

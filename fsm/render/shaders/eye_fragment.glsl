@@ -82,7 +82,7 @@ vec3 Iris(int side, vec2 p, float r, float toward_light) {
   base *= look_iris_light + look_iris_gathered * max(-toward_light, 0.0) * Ramp(look_iris_gathered_edge, r);
   base *= mix(1.0, beside_photo ? look_photo_iris_rim : look_iris_rim, Ramp(look_iris_rim_edge, r));
   float ragged = r + look_pupil_ragged * (fibre - 0.5);
-  return mix(vec3(look_pupil_color), base, Ramp(pupil_share + look_pupil_edge, ragged));
+  return mix(vec3(look_pupil_colour), base, Ramp(pupil_share + look_pupil_edge, ragged));
 }
 
 vec3 Photographed(vec4 rect, vec2 from_middle) {

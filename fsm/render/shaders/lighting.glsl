@@ -1,6 +1,6 @@
 // Precedes every shader that lights something: lamps, shadows and tone mapping. World coordinates are in millimetres,
 // light is linear. The version and the numbers of tables/appearance.txt, as constants, come before it:
-// look_sky_color, look_exposure, ...
+// look_sky_colour, look_exposure, ...
 uniform vec3 eye;
 
 // Smooth step from 0 at the first number of an edge of the table to 1 at the second.
@@ -32,7 +32,7 @@ float KeyShadow(vec3 world) {
   return lit;
 }
 
-vec3 Ambient(vec3 n) { return mix(look_ground_color, look_sky_color, 0.5 + 0.5 * n.y); }
+vec3 Ambient(vec3 n) { return mix(look_ground_colour, look_sky_colour, 0.5 + 0.5 * n.y); }
 
 // Wrapped diffuse light: it approximates subsurface scattering, further for red than for blue, as `wrap` says. It is
 // normalized, so that softer does not mean brighter, and fades out smoothly, since a kink in its slope would be
