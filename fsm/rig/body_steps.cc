@@ -1,5 +1,5 @@
 // The steps after those that shape the skin, which move tongue, bones, neck and normals: each
-// takes, checks and packs its data. steps.glsl says what happens to one vertex.
+// takes, checks, picks and packs its data. steps.glsl says what happens to one vertex.
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include "fsm/rig/rig_records.h"
 #include "fsm/rig/rig_steps.h"
 #include "fsm/rig/vertex_checker.h"
+#include "fsm/rig/vertex_pick.h"
 
 namespace fsm {
 namespace {
@@ -144,6 +145,10 @@ void CheckSprings(const RigData& data, const VertexChecker& checker) {
   }
 }
 
+void PickSprings(RigData& data, const VertexPick& pick) {
+  pick.VerticesOf(data.spring_rig.weights);
+}
+
 void PackSprings(const RigData& data, const char* kernel, KernelRecords& out) {
   VertexLists<step::SpringEntry> lists(data.rest.size());
   for (const auto& [vertex, spring, weight] : data.spring_rig.weights)
@@ -161,6 +166,8 @@ void CheckNormals(const RigData& data, const VertexChecker& checker) {
   checker.Triangles(data.normals.soft_triangles, "rig.soft_triangles");
 }
 
+void PickNormals(RigData& data, const VertexPick&) { data.normals = {}; }  // none are computed
+
 /// Each vertex lists all triangles around it and around the vertices that share its normal.
 void PackNormals(const RigData& data, const char* kernel, KernelRecords& out) {
   const NormalRig& normals = data.normals;
@@ -177,11 +184,14 @@ void PackNormals(const RigData& data, const char* kernel, KernelRecords& out) {
 }
 
 constexpr std::array kBodyTable{
-    StepDefinition{RigStep::kTongue, "tongue", ApplyTongue, CheckTongue, PackTongue},
-    StepDefinition{RigStep::kBones, "bones", ApplyBones, CheckBones, PackBones},
-    StepDefinition{RigStep::kNeck, "neck", ApplyNeck, nullptr, PackNeck},
-    StepDefinition{RigStep::kSprings, "springs", ApplySprings, CheckSprings, PackSprings},
-    StepDefinition{RigStep::kNormals, "normals", ApplyNormals, CheckNormals, PackNormals}};
+    StepDefinition{RigStep::kTongue, "tongue", ApplyTongue, CheckTongue, nullptr, nullptr,
+                   PackTongue},
+    StepDefinition{RigStep::kBones, "bones", ApplyBones, CheckBones, nullptr, nullptr, PackBones},
+    StepDefinition{RigStep::kNeck, "neck", ApplyNeck, nullptr, nullptr, nullptr, PackNeck},
+    StepDefinition{RigStep::kSprings, "springs", ApplySprings, CheckSprings, PickSprings, nullptr,
+                   PackSprings},
+    StepDefinition{RigStep::kNormals, "normals", ApplyNormals, CheckNormals, PickNormals, nullptr,
+                   PackNormals}};
 static_assert(AreInOrder(kBodyTable, RigStep::kTongue) &&
               kBodyTable.size() == kRigSteps - kSkinSteps);
 

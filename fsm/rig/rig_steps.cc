@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "fsm/rig/reach.h"
 #include "fsm/rig/rig_records.h"
 #include "fsm/rig/vertex_checker.h"
+#include "fsm/rig/vertex_pick.h"
 
 namespace fsm {
 namespace {
@@ -21,6 +24,12 @@ void CheckOrder(const std::vector<RigStep>& steps) {
         fmt::format("{}: {} cannot come after {}", VertexChecker::Element("rig.steps", i),
                     DefinitionOf(steps[i]).name, DefinitionOf(steps[i - 1]).name));
   }
+}
+
+/// Calls a function with every StepDefinition.
+void ForEachStep(const auto& visit) {
+  for (const auto definitions : {SkinStepDefinitions(), BodyStepDefinitions()})
+    std::ranges::for_each(definitions, visit);
 }
 
 }  // namespace
@@ -52,17 +61,45 @@ void CheckRig(const RigData& data) {
   checker.PerVertex(data.bone.size(), "rig.bone");
   checker.PerVertex(data.weights.size(), "rig.weights");
   CheckOrder(data.steps);
-  for (const auto definitions : {SkinStepDefinitions(), BodyStepDefinitions()}) {
-    for (const StepDefinition& definition : definitions) {
-      if (definition.check) definition.check(data, checker);
-    }
-  }
+  ForEachStep([&](const StepDefinition& definition) {
+    if (definition.check) definition.check(data, checker);
+  });
   const auto& [seam, corners, incisors] = data.mouth;
   checker.Pairs(seam, "rig.mouth.seam");
   if (corners) checker.Vertices(corners->InOrder(), "rig.mouth.corners");
   if (!incisors) return;
   for (const std::uint32_t vertex : {incisors->upper, incisors->lower, incisors->upper_root})
     checker.Vertex(vertex, "rig.mouth.incisors");
+}
+
+std::vector<std::uint32_t> StepVertices(const RigData& data) {
+  std::vector<std::uint32_t> vertices;
+  for (const auto& [upper, lower] : data.mouth.seam)
+    vertices.insert(vertices.end(), {upper, lower});
+  if (const auto& corners = data.mouth.corners)
+    vertices.insert(vertices.end(), {corners->right, corners->left});
+  if (data.rest.empty()) return vertices;
+  ForEachStep([&](const StepDefinition& definition) {
+    if (definition.reads) definition.reads(data, vertices);
+  });
+  return vertices;
+}
+
+RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertices) {
+  RigData some = data;
+  if (data.rest.empty()) return some;
+  const VertexPick pick(data.rest.size(), vertices);
+  pick.PerVertex(some.rest);
+  pick.PerVertex(some.rest_normal);
+  pick.PerVertex(some.bone);
+  pick.PerVertex(some.weights);
+  for (auto& [upper, lower] : some.mouth.seam) upper = pick[upper], lower = pick[lower];
+  if (auto& corners = some.mouth.corners) corners = {pick[corners->right], pick[corners->left]};
+  some.mouth.incisors.reset();  // only the renderer needs them
+  ForEachStep([&](const StepDefinition& definition) {
+    if (definition.pick) definition.pick(some, pick);
+  });
+  return some;
 }
 
 std::vector<RigRecords> PackRig(const RigData& data) {

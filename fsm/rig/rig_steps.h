@@ -12,6 +12,7 @@ namespace fsm {
 
 class KernelRecords;
 class VertexChecker;
+class VertexPick;
 
 /// Vertex lists that several steps loop over, found once for a rig.
 struct MovedVertices {
@@ -41,6 +42,11 @@ struct StepDefinition {
   void (*apply)(const RigData& data, const MovedVertices& moved, StepWork& work);
   /// Refuses data that lack what the step needs (VertexChecker); null: it needs nothing.
   void (*check)(const RigData& data, const VertexChecker& checker);
+  /// Reduces the step's data to some vertices (OnlyVertices); null: they name no vertices.
+  void (*pick)(RigData& data, const VertexPick& pick);
+  /// Adds the vertices, beside those of MouthLandmarks, from which the step derives the positions
+  /// of others; null: none.
+  void (*reads)(const RigData& data, std::vector<std::uint32_t>& vertices);
   /// Packs what the step's kernel reads of a rig; its name is that of the step.
   void (*pack)(const RigData& data, const char* kernel, KernelRecords& out);
 };

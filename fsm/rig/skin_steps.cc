@@ -1,5 +1,5 @@
-// The steps that shape the skin of a head that looks ahead: each takes, checks and packs its data.
-// steps.glsl says what happens to one vertex.
+// The steps that shape the skin of a head that looks ahead: each takes, checks, picks and packs its
+// data. steps.glsl says what happens to one vertex.
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include "fsm/rig/rig_records.h"
 #include "fsm/rig/rig_steps.h"
 #include "fsm/rig/vertex_checker.h"
+#include "fsm/rig/vertex_pick.h"
 
 namespace fsm {
 namespace {
@@ -59,6 +60,10 @@ void CheckChannels(const RigData& data, const VertexChecker& checker) {
   }
 }
 
+void PickChannels(RigData& data, const VertexPick& pick) {
+  for (Channel& channel : data.channels) pick.VerticesOf(channel.moves);
+}
+
 void PackChannels(const RigData& data, const char* kernel, KernelRecords& out) {
   VertexLists<step::ChannelEntry> lists(data.rest.size());
   for (std::uint32_t k = 0; k < data.channels.size(); ++k) {
@@ -81,6 +86,8 @@ void CheckLids(const RigData& data, const VertexChecker& checker) {
   checker.VerticesOf(data.lids.vertices, "rig.lids.vertices");
 }
 
+void PickLids(RigData& data, const VertexPick& pick) { pick.VerticesOf(data.lids.vertices); }
+
 void PackLids(const RigData& data, const char* kernel, KernelRecords& out) {
   std::vector<step::LidRecord> records;
   for (const LidRig::Vertex& lid : data.lids.vertices) {
@@ -100,6 +107,8 @@ void ApplyLidsOnBalls(const RigData& data, const MovedVertices&, StepWork& work)
 void CheckLidsOnBalls(const RigData& data, const VertexChecker& checker) {
   checker.VerticesOf(data.ball_lids, "rig.ball_lids");
 }
+
+void PickLidsOnBalls(RigData& data, const VertexPick& pick) { pick.VerticesOf(data.ball_lids); }
 
 void PackLidsOnBalls(const RigData& data, const char* kernel, KernelRecords& out) {
   std::vector<step::BallLidRecord> records;
@@ -131,6 +140,12 @@ void CheckJawByChin(const RigData& data, const VertexChecker& checker) {
   checker.Vertex(data.jaw.chin, "rig.chin");
 }
 
+void PickJawByChin(RigData& data, const VertexPick& pick) { data.jaw.chin = pick[data.jaw.chin]; }
+
+void ReadChin(const RigData& data, std::vector<std::uint32_t>& vertices) {
+  vertices.push_back(data.jaw.chin);
+}
+
 void PackJawByChin(const RigData& data, const char* kernel, KernelRecords& out) {
   const std::uint32_t chin = data.jaw.chin;
   out.Add(kernel, std::vector<step::ChinRecord>{{chin, PointAt(data.rest[chin])}});
@@ -149,6 +164,8 @@ void CheckTeeth(const RigData& data, const VertexChecker& checker) {
   checker.Positive(data.teeth.upper.half_width, "rig.upper_teeth.half_width");
   checker.Positive(data.teeth.lower.half_width, "rig.lower_teeth.half_width");
 }
+
+void PickTeeth(RigData& data, const VertexPick& pick) { pick.VerticesOf(data.teeth.contacts); }
 
 void PackTeeth(const RigData& data, const char* kernel, KernelRecords& out) {
   std::vector<step::ContactRecord> records;
@@ -182,6 +199,8 @@ void CheckLips(const RigData& data, const VertexChecker& checker) {
   }
 }
 
+void PickLips(RigData& data, const VertexPick& pick) { pick.VerticesOf(data.lips.followers); }
+
 void PackLips(const RigData& data, const char* kernel, KernelRecords& out) {
   const LipRig& lips = data.lips;
   std::vector<step::GapRecord> gaps;
@@ -207,21 +226,28 @@ void CheckOwnForm(const RigData& data, const VertexChecker& checker) {
     checker.Refuse("rig.proxy_to_own: not one for each of rig.proxy_rest");
 }
 
+void PickOwnForm(RigData& data, const VertexPick& pick) {
+  pick.PerVertex(data.proxy.rest);
+  pick.PerVertex(data.proxy.to_own);
+}
+
 void PackOwnForm(const RigData& data, const char* kernel, KernelRecords& out) {
   out.Add(kernel, data.proxy.to_own);
 }
 
 constexpr std::array kSkinTable{
-    StepDefinition{RigStep::kChannels, "channels", ApplyChannels, CheckChannels, PackChannels},
-    StepDefinition{RigStep::kLids, "lids", ApplyLids, CheckLids, PackLids},
+    StepDefinition{RigStep::kChannels, "channels", ApplyChannels, CheckChannels, PickChannels,
+                   nullptr, PackChannels},
+    StepDefinition{RigStep::kLids, "lids", ApplyLids, CheckLids, PickLids, nullptr, PackLids},
     StepDefinition{RigStep::kLidsOnBalls, "lids_on_balls", ApplyLidsOnBalls, CheckLidsOnBalls,
-                   PackLidsOnBalls},
-    StepDefinition{RigStep::kJaw, "jaw", ApplyJaw, nullptr, PackJaw},
+                   PickLidsOnBalls, nullptr, PackLidsOnBalls},
+    StepDefinition{RigStep::kJaw, "jaw", ApplyJaw, nullptr, nullptr, nullptr, PackJaw},
     StepDefinition{RigStep::kJawByChin, "jaw_by_chin", ApplyJawByChin, CheckJawByChin,
-                   PackJawByChin},
-    StepDefinition{RigStep::kTeeth, "teeth", ApplyTeeth, CheckTeeth, PackTeeth},
-    StepDefinition{RigStep::kLips, "lips", ApplyLips, CheckLips, PackLips},
-    StepDefinition{RigStep::kOwnForm, "own_form", ApplyOwnForm, CheckOwnForm, PackOwnForm}};
+                   PickJawByChin, ReadChin, PackJawByChin},
+    StepDefinition{RigStep::kTeeth, "teeth", ApplyTeeth, CheckTeeth, PickTeeth, nullptr, PackTeeth},
+    StepDefinition{RigStep::kLips, "lips", ApplyLips, CheckLips, PickLips, nullptr, PackLips},
+    StepDefinition{RigStep::kOwnForm, "own_form", ApplyOwnForm, CheckOwnForm, PickOwnForm, nullptr,
+                   PackOwnForm}};
 
 static_assert(AreInOrder(kSkinTable, RigStep::kChannels) && kSkinTable.size() == kSkinSteps);
 
