@@ -13,7 +13,7 @@
 
 namespace fsm {
 
-const GlProgram& RigPrograms::ProgramFor(const RigRecords& records) {
+const GlProgram& RigPrograms::ProgramFor(const KernelRecords& records) {
   auto& program = programs_[records.kernel];
   if (!program) {
     const std::string source =
@@ -32,7 +32,7 @@ GpuRig::GpuRig(const GlFunctions& gl, RigPrograms& programs, const Rig& rig)
       spring_count_(rig.data().spring_rig.springs.size()),
       seam_count_(rig.data().mouth.seam.size()) {
   gl_.GenBuffers(kBuffers, buffers_.data());
-  for (const RigRecords& records : PackRig(rig.data())) Add(records);
+  for (const KernelRecords& records : PackRig(rig.data())) Add(records);
 }
 
 GpuRig::~GpuRig() {
@@ -49,7 +49,7 @@ void GpuRig::Fill(GLuint buffer, const std::vector<T>& values, GLenum usage) con
                  usage);
 }
 
-void GpuRig::Add(const RigRecords& records) {
+void GpuRig::Add(const KernelRecords& records) {
   Kernel& kernel = kernels_.emplace_back(
       Kernel{&programs_.ProgramFor(records), {}, static_cast<std::uint32_t>(records.count)});
   gl_.GenBuffers(2, kernel.buffers.data());

@@ -12,7 +12,7 @@
 
 namespace fsm {
 
-struct RigRecords;
+struct KernelRecords;
 
 /// The programs of shaders/rig_kernels.glsl, each compiled when a head first needs it and shared by
 /// all heads of a context. Destroy while that context is current.
@@ -33,7 +33,7 @@ class RigPrograms {
   /// Tells whether the driver has compute shaders and storage buffers (OpenGL 4.3).
   static bool Supported(const GlFunctions& gl) { return gl.has_compute; }
   /// Returns the program for such records. Throws std::runtime_error with the compiler's log.
-  const GlProgram& ProgramFor(const RigRecords& records);
+  const GlProgram& ProgramFor(const KernelRecords& records);
 
  private:
   const GlFunctions& gl_;
@@ -76,7 +76,7 @@ class GpuRig {
     std::array<GLuint, 2> buffers;  // kRecords and kEntries
     std::uint32_t count;
   };
-  void Add(const RigRecords& records);
+  void Add(const KernelRecords& records);
   /// Makes a buffer with the bytes of `values`; at least one byte, as drivers require.
   template <typename T>
   void Fill(GLuint buffer, const std::vector<T>& values, GLenum usage) const;

@@ -55,7 +55,7 @@ void CheckTongue(const RigData& data, const VertexChecker& checker) {
 }
 
 /// Records are the vertices of the tongue; entries are the pairs of the lip seam.
-void PackTongue(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackTongue(const RigData& data, const char* kernel, RecordCollector& out) {
   std::vector<step::TongueRecord> records;
   for (const std::uint32_t i : MovedVertices(data).tongue) {
     records.push_back(
@@ -88,7 +88,7 @@ void CheckBones(const RigData& data, const VertexChecker& checker) {
   }
 }
 
-void PackBones(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackBones(const RigData& data, const char* kernel, RecordCollector& out) {
   std::vector<step::BoneRecord> records;
   for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
     if (data.bone[i] == Bone::kJaw) records.push_back({i, step::kJawBone});
@@ -105,7 +105,7 @@ void ApplyNeck(const RigData& data, const MovedVertices& moved, StepWork& work) 
     work.normal[i] = step::Rotated(neck.rotation, work.normal[i]);
 }
 
-void PackNeck(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackNeck(const RigData& data, const char* kernel, RecordCollector& out) {
   std::vector<step::NeckRecord> records;
   for (std::size_t i = 0; i < data.rest.size(); ++i)
     records.push_back({data.weights[i].neck, data.bone[i] != Bone::kSkin ? 1U : 0U});
@@ -149,7 +149,7 @@ void PickSprings(RigData& data, const VertexPick& pick) {
   pick.VerticesOf(data.spring_rig.weights);
 }
 
-void PackSprings(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackSprings(const RigData& data, const char* kernel, RecordCollector& out) {
   VertexLists<step::SpringEntry> lists(data.rest.size());
   for (const auto& [vertex, spring, weight] : data.spring_rig.weights)
     lists[vertex].push_back({spring, weight});
@@ -169,7 +169,7 @@ void CheckNormals(const RigData& data, const VertexChecker& checker) {
 void PickNormals(RigData& data, const VertexPick&) { data.normals = {}; }  // none are computed
 
 /// Each vertex lists all triangles around it and around the vertices that share its normal.
-void PackNormals(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackNormals(const RigData& data, const char* kernel, RecordCollector& out) {
   const NormalRig& normals = data.normals;
   const std::vector<std::uint32_t>& t = normals.soft_triangles;
   VertexLists<step::TriangleEntry> lists(data.rest.size());

@@ -92,8 +92,8 @@ ChannelDrives::ChannelDrives(std::span<const Channel> channels) {
 }
 
 void ChannelDrives::ComputeStrengths(std::span<const Channel> channels, const FaceState& state,
-                                     const Pose& pose, std::vector<float>& values,
-                                     std::vector<float>& out) const {
+                                     const Pose& pose, std::vector<float>& out) const {
+  thread_local std::vector<float> values;  // by drive; kept from frame to frame
   values.clear();
   for (const Drive& drive : drives_) values.push_back(ValueOf(drive, state, pose));
   auto from = driver_from_.begin();

@@ -81,9 +81,8 @@ class ChannelDrives {
  public:
   explicit ChannelDrives(std::span<const Channel> channels);
   /// Appends to `out` one strength for each of `channels`, the ones given to the constructor.
-  /// `values`: memory, which is kept from frame to frame.
   void ComputeStrengths(std::span<const Channel> channels, const FaceState& state, const Pose& pose,
-                        std::vector<float>& values, std::vector<float>& out) const;
+                        std::vector<float>& out) const;
 
  private:
   std::vector<Drive> drives_;

@@ -69,10 +69,9 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
                    std::span<const glm::vec3> spring_offsets) const {
   thread_local RigInputs inputs;  // kept from frame to frame
   ComputeInputs(state, inputs);
-  out.position = data_.Start();
+  out.position = data_.StartPositions();
   out.normal = data_.rest_normal;
-  StepWork work{inputs.state, inputs.strengths, spring_offsets,
-                out.position, out.normal,       inputs.lip_gaps};
+  StepWork work{inputs.state, inputs.strengths, spring_offsets, out.position, out.normal};
   for (const RigStep step : data_.steps) DefinitionOf(step).apply(data_, moved_, work);
   ComputeCreasesAndLids(inputs.pose, out);
 }
@@ -92,16 +91,15 @@ void Rig::ComputeInputs(const FaceState& state, RigInputs& inputs) const {
   inputs.pose = MakePose(state, data_.units, combiner_);
   inputs.state = StateOf(data_, inputs.pose);
   inputs.strengths.clear();
-  drives_.ComputeStrengths(data_.channels, state, inputs.pose, inputs.drive_values,
-                           inputs.strengths);
+  drives_.ComputeStrengths(data_.channels, state, inputs.pose, inputs.strengths);
 }
 
 MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   if (data_.mouth.seam.empty() || !data_.mouth.corners) return {};
   RigInputs inputs;
   ComputeInputs(state, inputs);
-  std::vector<glm::vec3> position = data_.Start();
-  StepWork work{inputs.state, inputs.strengths, {}, position, {}, inputs.lip_gaps};
+  std::vector<glm::vec3> position = data_.StartPositions();
+  StepWork work{inputs.state, inputs.strengths, {}, position, {}};
   for (const RigStep step : data_.steps) {
     if (!ShapesSkin(step)) break;  // the later steps do not change the mouth's shape
     DefinitionOf(step).apply(data_, moved_, work);

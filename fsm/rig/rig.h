@@ -27,9 +27,6 @@ struct RigInputs {
   Pose pose;
   step::StepState state;
   std::vector<float> strengths;  ///< by channel
-  // Memory of the steps, kept from frame to frame.
-  std::vector<float> drive_values;
-  std::vector<glm::vec3> lip_gaps;
 };
 
 /// Moves a head: a pure function from FaceState to vertices, which takes the steps of its RigData

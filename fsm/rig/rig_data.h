@@ -132,7 +132,9 @@ struct RigData {
   NormalRig normals;
 
   /// Returns the positions that the steps start from.
-  const std::vector<glm::vec3>& Start() const { return proxy.rest.empty() ? rest : proxy.rest; }
+  const std::vector<glm::vec3>& StartPositions() const {
+    return proxy.rest.empty() ? rest : proxy.rest;
+  }
 };
 
 /// Returns the rig of some of the vertices, in the order of `vertices`, which must include

@@ -14,7 +14,7 @@ namespace fsm {
 
 /// The vertex data that a kernel of render/shaders/rig_kernels.glsl reads: records, and entries
 /// where records have lists. Both hold structs of steps.glsl in their memory layout.
-struct RigRecords {
+struct KernelRecords {
   const char* kernel;     ///< its name after STEP_
   std::size_t count = 0;  ///< number of records, which is the number of invocations
   std::vector<std::byte> records;
@@ -22,7 +22,7 @@ struct RigRecords {
 };
 
 /// Collects the records of kernels in the order in which these run, without those that do nothing.
-class KernelRecords {
+class RecordCollector {
  public:
   template <typename Record, typename Entry = step::ListRecord>
   void Add(const char* kernel, const std::vector<Record>& records,
@@ -30,7 +30,7 @@ class KernelRecords {
     if (records.empty()) return;
     all_.push_back({kernel, records.size(), BytesOf(records), BytesOf(entries)});
   }
-  std::vector<RigRecords> Release() { return std::move(all_); }
+  std::vector<KernelRecords> Release() { return std::move(all_); }
 
  private:
   template <typename T>
@@ -40,7 +40,7 @@ class KernelRecords {
     return {bytes.begin(), bytes.end()};
   }
 
-  std::vector<RigRecords> all_;
+  std::vector<KernelRecords> all_;
 };
 
 /// Lists of the entries that act on each vertex. Entries keep their order, so that sums are
@@ -51,7 +51,7 @@ class VertexLists {
   explicit VertexLists(std::size_t vertices) : lists_(vertices) {}
   std::vector<Entry>& operator[](std::uint32_t vertex) { return lists_[vertex]; }
   /// Adds a record for each vertex with a non-empty list.
-  void AddTo(KernelRecords& out, const char* kernel) const {
+  void AddTo(RecordCollector& out, const char* kernel) const {
     std::vector<step::ListRecord> records;
     std::vector<Entry> entries;
     for (std::uint32_t vertex = 0; vertex < lists_.size(); ++vertex) {
@@ -68,6 +68,6 @@ class VertexLists {
 };
 
 /// Returns the records of all kernels that move a head, in order.
-std::vector<RigRecords> PackRig(const RigData& data);
+std::vector<KernelRecords> PackRig(const RigData& data);
 
 }  // namespace fsm

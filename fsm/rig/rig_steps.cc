@@ -102,11 +102,11 @@ RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertice
   return some;
 }
 
-std::vector<RigRecords> PackRig(const RigData& data) {
-  KernelRecords out;
+std::vector<KernelRecords> PackRig(const RigData& data) {
+  RecordCollector out;
   std::vector<step::RestRecord> rest;
   for (std::size_t i = 0; i < data.rest.size(); ++i)
-    rest.push_back({step::PointAt(data.Start()[i]), step::PointAt(data.rest_normal[i])});
+    rest.push_back({step::PointAt(data.StartPositions()[i]), step::PointAt(data.rest_normal[i])});
   out.Add("begin", rest);
   for (const RigStep step : data.steps) {
     const StepDefinition& definition = DefinitionOf(step);

@@ -10,7 +10,7 @@
 
 namespace fsm {
 
-class KernelRecords;
+class RecordCollector;
 class VertexChecker;
 class VertexPick;
 
@@ -30,7 +30,6 @@ struct StepWork {
   std::span<const glm::vec3> spring_offsets;
   std::span<glm::vec3> position;
   std::span<glm::vec3> normal;  ///< empty if only steps that shape the skin are applied
-  std::vector<glm::vec3>& lip_gaps;
 };
 
 /// All that the code knows of one RigStep beside its arithmetic in steps.glsl.
@@ -48,7 +47,7 @@ struct StepDefinition {
   /// of others; null: none.
   void (*reads)(const RigData& data, std::vector<std::uint32_t>& vertices);
   /// Packs what the step's kernel reads of a rig; its name is that of the step.
-  void (*pack)(const RigData& data, const char* kernel, KernelRecords& out);
+  void (*pack)(const RigData& data, const char* kernel, RecordCollector& out);
 };
 const StepDefinition& DefinitionOf(RigStep step);
 

@@ -64,7 +64,7 @@ void PickChannels(RigData& data, const VertexPick& pick) {
   for (Channel& channel : data.channels) pick.VerticesOf(channel.moves);
 }
 
-void PackChannels(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackChannels(const RigData& data, const char* kernel, RecordCollector& out) {
   VertexLists<step::ChannelEntry> lists(data.rest.size());
   for (std::uint32_t k = 0; k < data.channels.size(); ++k) {
     for (const Displacement& move : data.channels[k].moves)
@@ -88,7 +88,7 @@ void CheckLids(const RigData& data, const VertexChecker& checker) {
 
 void PickLids(RigData& data, const VertexPick& pick) { pick.VerticesOf(data.lids.vertices); }
 
-void PackLids(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackLids(const RigData& data, const char* kernel, RecordCollector& out) {
   std::vector<step::LidRecord> records;
   for (const LidRig::Vertex& lid : data.lids.vertices) {
     records.push_back(
@@ -110,7 +110,7 @@ void CheckLidsOnBalls(const RigData& data, const VertexChecker& checker) {
 
 void PickLidsOnBalls(RigData& data, const VertexPick& pick) { pick.VerticesOf(data.ball_lids); }
 
-void PackLidsOnBalls(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackLidsOnBalls(const RigData& data, const char* kernel, RecordCollector& out) {
   std::vector<step::BallLidRecord> records;
   for (const BallLid& lid : data.ball_lids)
     records.push_back({lid.vertex, static_cast<std::uint32_t>(lid.side), lid.min_radius});
@@ -124,7 +124,7 @@ void ApplyJaw(const RigData& data, const MovedVertices& moved, StepWork& work) {
     work.position[i] = step::WithJaw(jaw, work.position[i], data.weights[i].jaw);
 }
 
-void PackJaw(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackJaw(const RigData& data, const char* kernel, RecordCollector& out) {
   std::vector<step::JawRecord> records;
   for (const std::uint32_t i : MovedVertices(data).jawed)
     records.push_back({i, data.weights[i].jaw});
@@ -146,7 +146,7 @@ void ReadChin(const RigData& data, std::vector<std::uint32_t>& vertices) {
   vertices.push_back(data.jaw.chin);
 }
 
-void PackJawByChin(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackJawByChin(const RigData& data, const char* kernel, RecordCollector& out) {
   const std::uint32_t chin = data.jaw.chin;
   out.Add(kernel, std::vector<step::ChinRecord>{{chin, PointAt(data.rest[chin])}});
 }
@@ -167,7 +167,7 @@ void CheckTeeth(const RigData& data, const VertexChecker& checker) {
 
 void PickTeeth(RigData& data, const VertexPick& pick) { pick.VerticesOf(data.teeth.contacts); }
 
-void PackTeeth(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackTeeth(const RigData& data, const char* kernel, RecordCollector& out) {
   std::vector<step::ContactRecord> records;
   for (const auto& [vertex, upper_gap, lower_gap] : data.teeth.contacts)
     records.push_back({vertex, upper_gap, lower_gap});
@@ -176,14 +176,15 @@ void PackTeeth(const RigData& data, const char* kernel, KernelRecords& out) {
 
 void ApplyLips(const RigData& data, const MovedVertices&, StepWork& work) {
   const LipRig& rig = data.lips;
-  work.lip_gaps.clear();
+  thread_local std::vector<glm::vec3> gaps;  // by pair; kept from frame to frame
+  gaps.clear();
   for (std::size_t k = 0; k < data.mouth.seam.size(); ++k) {
     const auto& [upper, lower] = data.mouth.seam[k];
-    work.lip_gaps.push_back(step::LipGap(work.state.mouth.seal, work.position[upper],
-                                         work.position[lower], rig.ApartAtRest(k)));
+    gaps.push_back(step::LipGap(work.state.mouth.seal, work.position[upper], work.position[lower],
+                                rig.ApartAtRest(k)));
   }
   for (const LipRig::Follower& f : rig.followers)
-    work.position[f.vertex] -= LipRig::ShareOf(f) * work.lip_gaps[f.pair];
+    work.position[f.vertex] -= LipRig::ShareOf(f) * gaps[f.pair];
 }
 
 void CheckLips(const RigData& data, const VertexChecker& checker) {
@@ -201,7 +202,7 @@ void CheckLips(const RigData& data, const VertexChecker& checker) {
 
 void PickLips(RigData& data, const VertexPick& pick) { pick.VerticesOf(data.lips.followers); }
 
-void PackLips(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackLips(const RigData& data, const char* kernel, RecordCollector& out) {
   const LipRig& lips = data.lips;
   std::vector<step::GapRecord> gaps;
   for (std::size_t k = 0; k < data.mouth.seam.size(); ++k) {
@@ -231,7 +232,7 @@ void PickOwnForm(RigData& data, const VertexPick& pick) {
   pick.PerVertex(data.proxy.to_own);
 }
 
-void PackOwnForm(const RigData& data, const char* kernel, KernelRecords& out) {
+void PackOwnForm(const RigData& data, const char* kernel, RecordCollector& out) {
   out.Add(kernel, data.proxy.to_own);
 }
 
