@@ -121,9 +121,9 @@ void ChooseUnit(Ui& ui) {
   ImGui::SetNextItemWidth(230);
   if (Choice(ui, "##unit", &chosen, titles)) ui.field_unit = std::stoi(chosen);
   ImGui::SameLine();
-  Checkbox(ui, "right", &ui.field_sides[0], "Shown on the agent's right side");
+  Checkbox(ui, "right", &ui.field_sides.right, "Shown on the agent's right side");
   ImGui::SameLine();
-  Checkbox(ui, "left", &ui.field_sides[1], "Shown on the agent's left side");
+  Checkbox(ui, "left", &ui.field_sides.left, "Shown on the agent's left side");
   ImGui::SetNextItemWidth(230);
   Slider(ui, "shown at, per cent", &ui.field_percent, 0, 200, "%.0f");
 }
@@ -142,8 +142,8 @@ void NewRow(Ui& ui) {
 fsm::FaceState Shown(const Ui& ui, float strength) {
   fsm::FaceState state;
   const auto unit = static_cast<std::size_t>(ui.field_unit);
-  if (ui.field_sides[0]) state.au.right[unit] = strength;
-  if (ui.field_sides[1]) state.au.left[unit] = strength;
+  if (ui.field_sides.right) state.au.right[unit] = strength;
+  if (ui.field_sides.left) state.au.left[unit] = strength;
   return state;
 }
 

@@ -108,7 +108,7 @@ Answer Choose(Program& program, const LineWords& words) {
                  fsm::ParseUnitName(words.size() > 2 ? words[2] : "", ui.editor.unit_names());
              kind == "unit" && unit) {
     ui.field_unit = unit->number;
-    ui.field_sides = {unit->right, unit->left};
+    ui.field_sides = unit->sides;
     if (words.size() > 3)
       ui.field_percent = static_cast<float>(std::clamp(PatternIn(words, 3), 0, 200));
   } else {

@@ -15,6 +15,7 @@
 #include "face_editor/app/window.h"
 #include "face_editor/core/editor.h"
 #include "face_editor/core/player.h"
+#include "fsm/base/side.h"
 
 namespace editor {
 
@@ -80,7 +81,7 @@ struct Ui {
   bool closed = false;  ///< the window is to go, whatever is not saved
 
   int field_unit = 12;                          ///< whose rows are shown
-  std::array<bool, 2> field_sides{true, true};  ///< right, left: shown there
+  fsm::Sided<bool> field_sides{true, true};  ///< shown there
   float field_percent = 100;
   int field_row = 0;                 ///< the field under the mouse, 0 = none
   std::string field_word = "field";  ///< of a new row

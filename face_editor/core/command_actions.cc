@@ -106,8 +106,8 @@ Answer SetUnit(Editor& editor, const Words& words) {
   if (!unit) return std::unexpected(unit.error());
   const auto percent = Number(words.back());
   if (!percent) return std::unexpected(percent.error());
-  return Done(
-      editor.SetUnit(unit->number, unit->left, unit->right, static_cast<float>(*percent / 100)));
+  return Done(editor.SetUnit(unit->number, unit->sides.left, unit->sides.right,
+                             static_cast<float>(*percent / 100)));
 }
 
 Answer SetExpression(Editor& editor, const Words& words) {

@@ -22,8 +22,9 @@ std::optional<fsm::FaceLook> LookOf(const std::string& column, const fsm::Motion
   if (!unit) return std::nullopt;
   fsm::FaceLook look;
   const auto number = static_cast<std::size_t>(unit->number);
-  if (unit->left) look.au.left[number] = 1;
-  if (unit->right) look.au.right[number] = 1;
+  for (const fsm::Side side : fsm::kSides) {
+    if (unit->sides[side]) look.au[side][number] = 1;
+  }
   return look;
 }
 

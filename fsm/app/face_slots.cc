@@ -189,7 +189,7 @@ void DeclareHead(FsmCore& core) {
 }
 
 void DeclareEyes(FsmCore& core) {
-  const auto eyes = [&core](const std::string& name, bool left, bool right, const char* which) {
+  const auto eyes = [&core](const std::string& name, const Sided<bool>& sides, const char* which) {
     core.slots.Declare(
         {.name = name,
          .grammar = "<number -90..90> <number -90..90> <ms>",
@@ -197,16 +197,16 @@ void DeclareEyes(FsmCore& core) {
          .help = std::string("Turns ") + which +
                  " by x y degrees (x+ = down, y+ = to the viewer's right) for so many ms; "
                  "0 = until the next.",
-         .on_set = core.Command([&core, left, right](const vm::SetValue& value) {
+         .on_set = core.Command([&core, sides](const vm::SetValue& value) {
            core.motion->eyes.Rotate(
-               core.Now(), left, right,
+               core.Now(), sides,
                {static_cast<float>(value.number(0)), static_cast<float>(value.number(1))},
                FromMs(value.number(2)));
          })});
   };
-  eyes("EyeRot", true, true, "both eyes");
-  eyes("EyeRotRight", false, true, "the agent's right eye");
-  eyes("EyeRotLeft", true, false, "the agent's left eye");
+  eyes("EyeRot", {.right = true, .left = true}, "both eyes");
+  eyes("EyeRotRight", {.right = true}, "the agent's right eye");
+  eyes("EyeRotLeft", {.left = true}, "the agent's left eye");
 }
 
 }  // namespace

@@ -67,7 +67,8 @@ vm::Result<void> FilmRecorder::AddUpTo(vm::Time now, long most_repeats) {
                                 path_, width_, height_, view_.width(), view_.height()));
   }
   ++next_;
-  return queue_.Add(!writer_->is_live());
+  auto added = queue_.Add();
+  return added && writer_->is_live() ? queue_.Flush() : added;
 }
 
 vm::Result<void> FilmRecorder::Write(const Image& frame, long times) {

@@ -2,9 +2,8 @@
 
 namespace fsm {
 
-vm::Result<void> FrameQueue::Add(bool wait) {
+vm::Result<void> FrameQueue::Add() {
   waiting_.push_back({view_.BeginRead(), 1});
-  if (!wait) return Flush();
   return waiting_.size() > kMaxWaiting ? PassOnFirst() : vm::Result<void>{};
 }
 

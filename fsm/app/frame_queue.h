@@ -23,9 +23,9 @@ class FrameQueue {
   FrameQueue(const FrameQueue&) = delete;
   FrameQueue& operator=(const FrameQueue&) = delete;
 
-  /// Adds the frame that the view drew last. If not `wait`, flushes. Error: that of reading or
-  /// `take`, for this or an earlier frame; all waiting frames are then dropped.
-  vm::Result<void> Add(bool wait = true);
+  /// Adds the frame that the view drew last. Error: that of reading or `take`, for an earlier
+  /// frame; all waiting frames are then dropped.
+  vm::Result<void> Add();
   /// Adds the last frame once more. REQUIRES: there is one.
   vm::Result<void> Repeat();
   /// Passes on all waiting frames. Error: as Add.

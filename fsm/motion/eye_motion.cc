@@ -27,10 +27,10 @@ EyeAngles EyeMotion::Thinking() const {
 
 // ---- commands
 
-void EyeMotion::Rotate(vm::Time now, bool left, bool right, const EyeAngles& angles,
+void EyeMotion::Rotate(vm::Time now, const Sided<bool>& sides, const EyeAngles& angles,
                        vm::Time duration) {
   for (const Side side : kSides) {
-    if (!(side == Side::kLeft ? left : right)) continue;
+    if (!sides[side]) continue;
     rotation_[side].Visit(now, angles, settings_.eye_move, duration);
     ends_.rotation[side] = duration > vm::Time(0) ? now + duration : now;
   }

@@ -21,9 +21,9 @@ class EyeMotion : public MotionSource {
  public:
   explicit EyeMotion(const MotionInputs& in);
 
-  /// Turns the left, the right or both eyes to `angles`. If `duration` is not zero, they are back
-  /// at rest after it.
-  void Rotate(vm::Time now, bool left, bool right, const EyeAngles& angles, vm::Time duration);
+  /// Turns the eyes of those sides to `angles`. If `duration` is not zero, they are back at rest
+  /// after it.
+  void Rotate(vm::Time now, const Sided<bool>& sides, const EyeAngles& angles, vm::Time duration);
   /// Looks in a direction with eyes and head: the eyes jump there, the head follows more slowly
   /// with its share of a large angle, and the eyes turn back by as much.
   void Gaze(vm::Time now, const EyeAngles& angles, vm::Time duration);

@@ -33,10 +33,11 @@ float WeightOf(const Head& head, std::size_t target, const FaceState& state) {
 TEST(DriveFitTest, ASidedNumberIsMetOnEitherSideAndOnBoth) {
   // By the right side, by the sum, by the stronger one, and by what the right is stronger.
   DriveFit fit(4);
-  fit.AddSided({.kind = Drive::Kind::kCommandedUnit, .number = 30}, 1, [](bool right, bool left) {
-    const float r = right ? 1 : 0, l = left ? 1 : 0;
-    return DriveFit::Weights{r, 0.5F * (r + l), std::max(r, l), std::max(r - l, 0.0F)};
-  });
+  fit.AddSided({.kind = Drive::Kind::kCommandedUnit, .number = 30}, 1,
+               [](const Sided<bool>& raised) {
+                 const float r = raised.right ? 1 : 0, l = raised.left ? 1 : 0;
+                 return DriveFit::Weights{r, 0.5F * (r + l), std::max(r, l), std::max(r - l, 0.0F)};
+               });
   const auto head = HeadOf(fit.ReleaseDrivers());
   for (const float right : {0.0F, 0.4F, 1.0F}) {
     for (const float left : {0.0F, 0.7F, 1.0F}) {

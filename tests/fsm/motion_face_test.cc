@@ -131,20 +131,20 @@ TEST_F(FaceMotionTest, BlendShapesBecomeUnitsAndGaze) {
 }
 
 TEST_F(FaceMotionTest, EyesTurnAndComeBack) {
-  motion.eyes.Rotate(0ms, true, true, {10, 20}, 1000ms);
+  motion.eyes.Rotate(0ms, {true, true}, {10, 20}, 1000ms);
   EXPECT_FLOAT_EQ(motion.StateAt(70ms).gaze.left[kDown], 10);
   EXPECT_FLOAT_EQ(motion.StateAt(70ms).gaze.right[kToRight], 20);
   EXPECT_FLOAT_EQ(motion.StateAt(1000ms).gaze.right[kToRight], 0);
-  motion.eyes.Rotate(2000ms, true, false, {0, 15}, 0ms);
+  motion.eyes.Rotate(2000ms, {.left = true}, {0, 15}, 0ms);
   EXPECT_FLOAT_EQ(motion.StateAt(9s).gaze.left[kToRight], 15);
   EXPECT_FLOAT_EQ(motion.StateAt(9s).gaze.right[kToRight], 0);
 }
 
 TEST_F(FaceMotionTest, ATimedTurnOfOneEyeEndsWhateverTheOtherDoes) {
-  motion.eyes.Rotate(0ms, true, false, {10, 20}, 1000ms);
-  motion.eyes.Rotate(100ms, false, true, {5, 5}, 0ms);
+  motion.eyes.Rotate(0ms, {.left = true}, {10, 20}, 1000ms);
+  motion.eyes.Rotate(100ms, {.right = true}, {5, 5}, 0ms);
   EXPECT_EQ(motion.EndsAt(200ms), vm::Time(1000ms));
-  motion.eyes.Rotate(300ms, true, false, {5, 5}, 0ms);
+  motion.eyes.Rotate(300ms, {.left = true}, {5, 5}, 0ms);
   EXPECT_EQ(motion.EndsAt(300ms), vm::Time(300ms));
 }
 
@@ -291,7 +291,7 @@ TEST_F(FaceMotionTest, StatesStayFiniteUnderManyCommands) {
         (void)motion.SetFace(t, 1 + random(36), random(200) / 100.0);
         break;
       case 2:
-        motion.eyes.Rotate(t, true, random(2) == 0,
+        motion.eyes.Rotate(t, {.right = random(2) == 0, .left = true},
                            {static_cast<float>(random(30)), static_cast<float>(random(30))},
                            std::chrono::milliseconds(random(200)));
         break;

@@ -131,7 +131,7 @@ TEST(OwnUnitNamesTest, AreFoundWhateverTheirCaseBeforeNumbersWithALetter) {
   const auto one_side = ParseUnitName("lipCORNERpuller.l", *names);
   ASSERT_TRUE(one_side) << one_side.error().text;
   EXPECT_EQ(one_side->number, 12);
-  EXPECT_TRUE(one_side->left && !one_side->right);
+  EXPECT_EQ(one_side->sides, (Sided<bool>{.right = false, .left = true}));
 }
 
 TEST(OwnUnitNamesTest, SayWhetherNameOrNumberIsThereTwice) {

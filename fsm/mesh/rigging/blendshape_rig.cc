@@ -34,36 +34,35 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
   DriveFit fit(solver.count());
   for (const int unit : units.Numbers()) {
     const auto number = static_cast<std::uint16_t>(unit);
-    const auto state_of = [number](bool right, bool left) {
+    const auto state_of = [number](const Sided<bool>& raised) {
       FaceState state;
-      state.au.right[number] = right ? 1 : 0;
-      state.au.left[number] = left ? 1 : 0;
+      for (const Side side : kSides) state.au[side][number] = raised[side] ? 1 : 0;
       return state;
     };
     // The jaw's sway to both sides cancels out, so each side is also fitted alone.
-    const float shown =
-        std::max({solver.ShareShown(state_of(true, true)), solver.ShareShown(state_of(true, false)),
-                  solver.ShareShown(state_of(false, true))});
+    const float shown = std::max({solver.ShareShown(state_of({true, true})),
+                                  solver.ShareShown(state_of({.right = true})),
+                                  solver.ShareShown(state_of({.left = true}))});
     if (shown < kMinShown) continue;
     fit.AddSided({.kind = Drive::Kind::kUnit, .number = number}, 1,
-                 [&](bool right, bool left) { return solve(state_of(right, left)); });
+                 [&](const Sided<bool>& raised) { return solve(state_of(raised)); });
   }
-  fit.AddSided({.kind = Drive::Kind::kBlink}, 1, [&](bool right, bool left) {
+  fit.AddSided({.kind = Drive::Kind::kBlink}, 1, [&](const Sided<bool>& raised) {
     FaceState state;
-    state.blink.right = right ? 1 : 0;
-    state.blink.left = left ? 1 : 0;
+    for (const Side side : kSides) state.blink[side] = raised[side] ? 1 : 0;
     return solve(state);
   });
   constexpr float kGaze = 25;  // degrees
   for (const Drive::Kind kind : {Drive::Kind::kGazeUp, Drive::Kind::kGazeRight}) {
     for (const Drive::Half half : {Drive::Half::kPositive, Drive::Half::kNegative}) {
       const float angle = half == Drive::Half::kPositive ? kGaze : -kGaze;
-      fit.AddSided({.kind = kind, .half = half}, kGaze, [&](bool right, bool left) {
+      fit.AddSided({.kind = kind, .half = half}, kGaze, [&](const Sided<bool>& raised) {
         FaceState state;
         const EyeAngles gaze =
             kind == Drive::Kind::kGazeUp ? EyeAngles{-angle, 0} : EyeAngles{0, angle};
-        if (right) state.gaze.right = gaze;
-        if (left) state.gaze.left = gaze;
+        for (const Side side : kSides) {
+          if (raised[side]) state.gaze[side] = gaze;
+        }
         return solve(state);
       });
     }

@@ -42,9 +42,9 @@ void DriveFit::Add(std::size_t target, const Drive& drive, float gain) {
 }
 
 void DriveFit::AddSided(const Drive& drive, float full,
-                        const std::function<Weights(bool right, bool left)>& weights) {
-  const Weights right = weights(true, false), left = weights(false, true),
-                both = weights(true, true);
+                        const std::function<Weights(const Sided<bool>& raised)>& weights) {
+  const Weights right = weights({.right = true}), left = weights({.left = true}),
+                both = weights({true, true});
   for (std::size_t k = 0; k < drivers_.size(); ++k) {
     // w = a max(r, l) + b r + c l satisfies all three.
     const std::array<std::pair<Drive::WhichSide, float>, 3> parts{

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "fsm/base/side.h"
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/rig_data.h"
 
@@ -19,11 +20,11 @@ class DriveFit {
   explicit DriveFit(std::size_t targets) : drivers_(targets) {}
 
   /// Adds drivers by a number that both sides have. `weights` returns the weights of the targets
-  /// where that number is `full` on the right side, on the left, or on both, and 0 elsewhere. All
+  /// where that number is `full` on the raised sides (right, left or both), and 0 elsewhere. All
   /// three are reproduced, whether a target follows one side, the sum of both or the greater of
   /// them.
   void AddSided(const Drive& drive, float full,
-                const std::function<Weights(bool right, bool left)>& weights);
+                const std::function<Weights(const Sided<bool>& raised)>& weights);
   void Add(std::size_t target, const Drive& drive, float gain);
 
   /// Moves out the drivers of every target.

@@ -33,8 +33,9 @@ void AddTo(FaceLook& a, const FaceLook& b, double weight) {
 
 void SetUnit(FaceLook& look, const UnitSetting& unit) {
   const auto index = static_cast<std::size_t>(unit.number);
-  if (unit.left) look.au.left[index] = static_cast<float>(unit.strength);
-  if (unit.right) look.au.right[index] = static_cast<float>(unit.strength);
+  for (const Side side : kSides) {
+    if (unit.sides[side]) look.au[side][index] = static_cast<float>(unit.strength);
+  }
 }
 
 bool SetGaze(FaceLook& look, std::string_view word) {

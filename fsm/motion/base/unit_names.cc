@@ -48,6 +48,8 @@ std::optional<double> IntensityOf(std::string_view word) {
   return kIntensity[static_cast<std::size_t>(word[0] - 'A')];
 }
 
+Sided<bool> OnlySide(bool left) { return {.right = !left, .left = left}; }
+
 /// A unit with its side, and its strength if the word has an intensity letter (12C).
 struct ParsedUnit {
   UnitSetting unit;
@@ -60,8 +62,7 @@ std::optional<ParsedUnit> ByName(std::string_view word, const UnitNames& names) 
   std::string_view name = lower;
   auto found = names.by_name.find(name);
   if (found == names.by_name.end() && (name.ends_with('l') || name.ends_with('r'))) {
-    out.unit.left = name.ends_with('l');
-    out.unit.right = !out.unit.left;
+    out.unit.sides = OnlySide(name.ends_with('l'));
     name.remove_suffix(1);
     const bool numbered = !name.empty() && name.front() >= '0' && name.front() <= '9';
     if (!numbered && !name.ends_with('.')) return std::nullopt;
@@ -94,10 +95,7 @@ std::optional<ParsedUnit> ByNumber(std::string_view word) {
     word = {};
   }
   if (!word.empty()) return std::nullopt;
-  if (side) {
-    out.unit.left = *side == 'L';
-    out.unit.right = !out.unit.left;
-  }
+  if (side) out.unit.sides = OnlySide(*side == 'L');
   return out;
 }
 
@@ -150,7 +148,7 @@ std::string UnitsExpected(std::string_view word, const UnitNames& names) {
 vm::Result<ParsedUnit> ParseUnit(const Word& word, const UnitNames& names) {
   const auto unit = FindUnit(word.text, names);
   if (!unit) return FailAt(word, "not an action unit; " + UnitsExpected(word.text, names));
-  if (names.codes.contains(unit->unit.number) && !(unit->unit.left && unit->unit.right)) {
+  if (names.codes.contains(unit->unit.number) && unit->unit.sides != Sided<bool>{true, true}) {
     return FailAt(word, "a code of head or eyes, which has no sides");
   }
   return *unit;
@@ -250,7 +248,8 @@ vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names
 }
 
 void KeepOwnSide(UnitSetting& unit, const UnitNames& names) {
-  if (unit.left && unit.strength > 0 && names.IsOneSided(unit.number)) unit.right = false;
+  if (unit.sides.left && unit.strength > 0 && names.IsOneSided(unit.number))
+    unit.sides.right = false;
 }
 
 vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names) {

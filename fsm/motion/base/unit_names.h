@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fsm/base/side.h"
 #include "fsm/motion/base/face_look.h"
 
 namespace fsm {
@@ -40,8 +41,7 @@ vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view te
 /// A unit given by number or name, with an optional side: "12", "12L", "R12", "LipCornerPuller.R".
 struct UnitName {
   int number = 0;
-  bool left = true;
-  bool right = true;
+  Sided<bool> sides{true, true};  ///< those it is asked of
 };
 /// Parses the name of a unit. Error: kBadValue for any other word; codes are not units.
 vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names);

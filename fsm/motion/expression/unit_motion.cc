@@ -12,8 +12,9 @@ constexpr vm::Time kCodeMove = 120ms;  // heads and eyes take longer than skin
 
 void UnitMotion::SetOne(vm::Time now, const UnitSetting& unit, vm::Time move) {
   auto& track = tracks_[unit.number];
-  if (unit.left) track.left.MoveTo(now, static_cast<float>(unit.strength), move);
-  if (unit.right) track.right.MoveTo(now, static_cast<float>(unit.strength), move);
+  for (const Side side : kSides) {
+    if (unit.sides[side]) track[side].MoveTo(now, static_cast<float>(unit.strength), move);
+  }
 }
 
 vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view text) {
