@@ -86,7 +86,7 @@ void CarryOnto(const fsm::ImportedHead& file, const fsm::Similarity& place,
     for (const glm::vec3& p : model.mesh.position) {
       if (!IsFinite(p)) __builtin_trap();
     }
-    const auto flesh = model.SkinTriangles(), eyes = model.EyeTriangles();
+    const auto flesh = model.FleshTriangles(), eyes = model.EyeTriangles();
     if (model.mesh.position.size() > kMaxCarried || flesh.size() + eyes.size() > kMaxCarried)
       return;
     fsm::RigData skin = fsm::TransferRig(model, *source, pairs);

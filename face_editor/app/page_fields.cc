@@ -158,7 +158,7 @@ void DrawTouched(Ui& ui, ImVec2 low, ImVec2 size) {
   if (!alone) return;
   fsm::Figure turned;
   turned.rotation = {ui.stage.turn[0], ui.stage.turn[1], 0};
-  const fsm::View view =
+  const fsm::FrameCamera view =
       fsm::ViewOfPortrait(turned, ui.stage.scene.camera, ui.preview.width, ui.preview.height,
                           ui.stage.head() ? ui.stage.head()->view() : std::nullopt);
   const auto touched =

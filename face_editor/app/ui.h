@@ -80,7 +80,7 @@ struct Ui {
   bool failed = false;
   bool closed = false;  ///< the window is to go, whatever is not saved
 
-  int field_unit = 12;                          ///< whose rows are shown
+  int field_unit = 12;                       ///< whose rows are shown
   fsm::Sided<bool> field_sides{true, true};  ///< shown there
   float field_percent = 100;
   int field_row = 0;                 ///< the field under the mouse, 0 = none

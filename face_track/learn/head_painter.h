@@ -25,7 +25,7 @@ class HeadPainter {
   std::unique_ptr<fsm::RenderContext> context_;
   std::unique_ptr<fsm::Renderer> renderer_;
   fsm::Scene scene_;
-  fsm::View view_;
+  fsm::FrameCamera view_;
   Lens lens_;
 };
 

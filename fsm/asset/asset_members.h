@@ -92,7 +92,7 @@ void Members(V& v, Like<Incisors> auto& incisors) {
 }
 
 template <typename V>
-void Members(V& v, Like<MouthLandmarks> auto& mouth) {
+void Members(V& v, Like<MouthVertices> auto& mouth) {
   v("seam", mouth.seam);
   v("corners", mouth.corners);
   v("incisors", mouth.incisors);

@@ -38,7 +38,7 @@ class Reader {
     if constexpr (std::is_enum_v<T>) {
       value = static_cast<T>(Whole(place, from, 0, kValuesOf<T> - 1));
     } else if constexpr (std::is_same_v<T, bool>) {
-      if (!from.is_boolean()) Refuse(place + ": true or false expected");
+      if (!from.is_boolean()) RefuseFile(place + ": true or false expected");
       value = from.get<bool>();
     } else if constexpr (std::is_integral_v<T>) {
       value = static_cast<T>(
@@ -54,21 +54,21 @@ class Reader {
  private:
   static std::int64_t Whole(const std::string& place, const json& from, std::int64_t min,
                             std::int64_t max) {
-    if (!from.is_number_integer()) Refuse(place + ": a whole number expected");
+    if (!from.is_number_integer()) RefuseFile(place + ": a whole number expected");
     const auto value = from.get<std::int64_t>();
     if (value < min || value > max) {
-      Refuse(fmt::format("{}: {} found, {} to {} expected", place, value, min, max));
+      RefuseFile(fmt::format("{}: {} found, {} to {} expected", place, value, min, max));
     }
     return value;
   }
   static float Real(const std::string& place, const json& from) {
     const float value = from.is_number() ? from.get<float>() : NAN;
-    if (!std::isfinite(value)) Refuse(place + ": a number expected");
+    if (!std::isfinite(value)) RefuseFile(place + ": a number expected");
     return value;
   }
   static void NeedList(const std::string& place, const json& from, std::size_t size) {
     if (!from.is_array() || from.size() != size) {
-      Refuse(fmt::format("{}: a list of {} expected", place, size));
+      RefuseFile(fmt::format("{}: a list of {} expected", place, size));
     }
   }
   template <glm::length_t L>
@@ -91,7 +91,7 @@ class Reader {
     if (!from.is_null()) Read(place, from, value.emplace());
   }
   void ReadObject(const std::string& place, const json& from, Landmarks& landmarks) {
-    if (!from.is_object()) Refuse(place + ": an object of places expected");
+    if (!from.is_object()) RefuseFile(place + ": an object of places expected");
     for (const auto& [name, at] : from.items()) Read(place + "." + name, at, landmarks[name]);
   }
   void ReadObject(const std::string& place, const json& from, std::shared_ptr<const Image>& image) {
@@ -119,7 +119,7 @@ class Reader {
     } else if constexpr (std::is_enum_v<T> || std::is_arithmetic_v<T>) {
       for (const double number : Column(place, from, 1)) items.push_back(Narrow<T>(place, number));
     } else {
-      if (!from.is_array()) Refuse(place + ": a list expected");
+      if (!from.is_array()) RefuseFile(place + ": a list expected");
       for (std::size_t i = 0; i < from.size(); ++i)
         Read(fmt::format("{}[{}]", place, i), from[i], items.emplace_back());
     }
@@ -135,7 +135,7 @@ class Reader {
   const json& MemberOf(const std::string& place, const json& from, std::string_view name) const {
     const auto found = from.is_object() ? from.find(name) : from.end();
     if (!from.is_object() || found == from.end()) {
-      Refuse(fmt::format("{}: no member \"{}\"", place, name));
+      RefuseFile(fmt::format("{}: no member \"{}\"", place, name));
     }
     return *found;
   }
@@ -158,7 +158,7 @@ class Reader {
         max = std::numeric_limits<T>::max();
       }
       if (!(number >= min && number <= max)) {
-        Refuse(fmt::format("{}: {} is out of range", place, number));
+        RefuseFile(fmt::format("{}: {} is out of range", place, number));
       }
       return static_cast<T>(static_cast<std::int64_t>(number));
     }
@@ -176,7 +176,7 @@ class Reader {
       auto numbers = Column(where, MemberOf(place, from, name), static_cast<int>(kWidth<M>));
       const std::size_t count = numbers.size() / kWidth<M>;
       if (columns.empty()) items.resize(count);
-      if (items.size() != count) Refuse(where + ": as many as in the first column expected");
+      if (items.size() != count) RefuseFile(where + ": as many as in the first column expected");
       columns.push_back({std::move(where), std::move(numbers)});
     };
     T sample{};
@@ -204,13 +204,13 @@ class Reader {
 
 HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   if (JsonInteger(from, "version") != kAssetVersion) {
-    Refuse(fmt::format("version: {} expected", kAssetVersion));
+    RefuseFile(fmt::format("version: {} expected", kAssetVersion));
   }
   Reader reader(gltf);
   HeadAsset asset;
   const auto read = [&](const char* name, auto& member) {
     const auto found = from.find(name);
-    if (found == from.end()) Refuse("no member \"" + std::string(name) + "\"");
+    if (found == from.end()) RefuseFile("no member \"" + std::string(name) + "\"");
     reader.Read(name, *found, member);
   };
   read("surface", asset.surface);

@@ -31,7 +31,7 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   for (const Viseme& viseme : motion.set(VisemeSetId::k14).visemes)
     mouths.push_back(viseme.pose.mouth);
   UnriggedHead model = ConvertOriginalFace(*face);
-  RigData skin = RigOfOriginal(*face, model, mouths, kFullMouth);
+  RigData skin = RigOfOriginal(*face, model, mouths, kMouthAtFull);
   return WithUnits(UnitsIn(tables), RigUnriggedHead(std::move(model), std::move(skin)));
 }
 

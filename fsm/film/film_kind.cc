@@ -12,14 +12,16 @@ namespace {
 /// Returns a path as a URL, so that ffmpeg cannot read it as an option or as another protocol.
 std::string FileUrl(const std::string& path) { return "file:" + path; }
 
-void Append(Arguments& arguments, std::initializer_list<std::string> more) {
+void Append(FfmpegArguments& arguments, std::initializer_list<std::string> more) {
   arguments.insert(arguments.end(), more);
 }
 
 /// Returns the first arguments: no banner, no questions, only errors.
-Arguments CommonArguments() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-y"}; }
+FfmpegArguments CommonArguments() {
+  return {"-hide_banner", "-nostdin", "-loglevel", "error", "-y"};
+}
 
-void AppendOutput(Arguments& arguments, const FilmKind& kind, const std::string& comment,
+void AppendOutput(FfmpegArguments& arguments, const FilmKind& kind, const std::string& comment,
                   const std::string& path) {
   Append(arguments, {"-map_metadata", "-1", "-fflags", "+bitexact"});
   if (!comment.empty()) Append(arguments, {"-metadata", "comment=" + comment});
@@ -30,7 +32,7 @@ void AppendOutput(Arguments& arguments, const FilmKind& kind, const std::string&
 
 }  // namespace
 
-const FilmKind* KindOf(std::string_view path) {
+const FilmKind* FilmKindOf(std::string_view path) {
   static const std::vector<FilmKind> kinds = {
       {".mp4",
        false,
@@ -59,9 +61,10 @@ std::string SizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-Arguments EncodeArguments(const FilmKind& kind, int width, int height, double frames_per_second,
-                          const std::string& comment, const std::string& path) {
-  Arguments arguments = CommonArguments();
+FfmpegArguments EncodeArguments(const FilmKind& kind, int width, int height,
+                                double frames_per_second, const std::string& comment,
+                                const std::string& path) {
+  FfmpegArguments arguments = CommonArguments();
   Append(arguments, {"-f", "rawvideo", "-pixel_format", kind.as_rgba ? "rgba" : "yuv420p"});
   // Sides are made even by YuvPlanes, or by ffmpeg for RGBA.
   Append(arguments,
@@ -90,9 +93,10 @@ Arguments EncodeArguments(const FilmKind& kind, int width, int height, double fr
   return arguments;
 }
 
-Arguments SoundArguments(const FilmKind& kind, const std::string& film, const std::string& sound,
-                         const std::string& comment, const std::string& path) {
-  Arguments arguments = CommonArguments();
+FfmpegArguments SoundArguments(const FilmKind& kind, const std::string& film,
+                               const std::string& sound, const std::string& comment,
+                               const std::string& path) {
+  FfmpegArguments arguments = CommonArguments();
   Append(arguments, {"-i", FileUrl(film), "-i", FileUrl(sound), "-map", "0:v:0", "-map", "1:a:0",
                      "-c:v", "copy", "-c:a"});
   arguments.insert(arguments.end(), kind.sound.begin(), kind.sound.end());

@@ -195,7 +195,7 @@ vm::Result<std::unique_ptr<FilmWriter>> OpenRaw(const std::string& path, int wid
 }  // namespace
 
 vm::Result<void> FilmWriter::CheckName(const std::string& path) {
-  if (IsRaw(path) || KindOf(path) != nullptr) return {};
+  if (IsRaw(path) || FilmKindOf(path) != nullptr) return {};
   return vm::Fail(vm::Errc::kBadValue,
                   "'" + path +
                       "' is no film's name: it must end in .mp4, or, to keep what is transparent, "
@@ -214,7 +214,7 @@ vm::Result<std::unique_ptr<FilmWriter>> FilmWriter::Open(const std::string& path
   }
   if (IsRaw(path)) return OpenRaw(path, width, height);
   if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
-  const FilmKind& kind = *KindOf(path);
+  const FilmKind& kind = *FilmKindOf(path);
   const auto cannot = [&path](const vm::Error& why) {
     return vm::Fail(vm::Errc::kUnavailable, "cannot make the film '" + path + "': " + why.text);
   };

@@ -70,7 +70,7 @@ struct HeadSources {
 struct BaseSkin {
   Cage cage;
   FineSkin fine;
-  MouthLandmarks mouth;  ///< without incisors
+  MouthVertices mouth;  ///< without incisors
   MeshBuilder mesh;
 };
 

@@ -146,15 +146,15 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
 
 }  // namespace
 
-MouthLandmarks BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                         const Identity& identity, MeshBuilder& mesh) {
+MouthVertices BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
+                        const Identity& identity, MeshBuilder& mesh) {
   const SkinPainter painter(identity, eye);
   const HairLook hair(identity);
   std::vector<SkinKind> kind(skin.position.size(), SkinKind::kSkin);
   for (const FineSkin::Triangle& t : skin.triangles) {
     for (const std::uint32_t v : t.corner) kind[v] = std::max(kind[v], t.kind);
   }
-  MouthLandmarks found;
+  MouthVertices found;
   found.seam.resize(2 * kLastColumn + 1);
   found.corners.emplace();
   for (std::uint32_t v = 0; v < skin.position.size(); ++v) {

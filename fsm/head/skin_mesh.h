@@ -12,8 +12,8 @@ namespace fsm {
 
 /// Adds the subdivided skin with paint and rig to an empty mesh; vertex i of the skin becomes
 /// vertex i of the mesh. Returns the landmarks of the mouth, to which FindIncisors adds.
-MouthLandmarks BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                         const Identity& identity, MeshBuilder& mesh);
+MouthVertices BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
+                        const Identity& identity, MeshBuilder& mesh);
 
 /// The front of the skin as seen from the viewer, on which other parts are placed.
 class SkinFront {

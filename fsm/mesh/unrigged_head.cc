@@ -34,7 +34,7 @@ std::vector<std::uint32_t> TrianglesOf(const UnriggedHead& model, Is is) {
 
 }  // namespace
 
-std::vector<std::uint32_t> UnriggedHead::SkinTriangles() const {
+std::vector<std::uint32_t> UnriggedHead::FleshTriangles() const {
   return TrianglesOf(*this, [](Bone b) { return b == Bone::kSkin; });
 }
 

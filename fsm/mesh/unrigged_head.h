@@ -29,14 +29,14 @@ struct UnriggedHead {
   SpringRig spring_rig;
   Landmarks landmarks;
   std::optional<ParallelView> view;  ///< the view that the file intends
-  MouthLandmarks mouth;              ///< without incisors, which RigUnriggedHead finds
+  MouthVertices mouth;               ///< without incisors, which RigUnriggedHead finds
 
   /// Adds a vertex and returns its index. `at`: its texture coordinates; if missing, it has its own
   /// colour. `neck`: SkinWeights::neck.
   std::uint32_t Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at = {},
                     float neck = 1);
   /// Returns the triangles of flesh, three vertex indices each.
-  std::vector<std::uint32_t> SkinTriangles() const;
+  std::vector<std::uint32_t> FleshTriangles() const;
   std::vector<std::uint32_t> EyeTriangles() const;  ///< the same of the eyeballs
   /// Adds an eyeball with an iris about eye_rig.centre[side], in our own colours.
   void AddEyeball(Side side);

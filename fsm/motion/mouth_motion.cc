@@ -16,7 +16,7 @@ vm::Result<void> MouthMotion::Set(vm::Time now, int parameter, double strength) 
     return vm::Fail(vm::Errc::kBadValue,
                     fmt::format("{} is no mouth parameter; 1 to 17 expected", parameter));
   }
-  parameters_[index].MoveTo(now, static_cast<float>(strength) * kFullMouth[index], kMove);
+  parameters_[index].MoveTo(now, static_cast<float>(strength) * kMouthAtFull[index], kMove);
   return {};
 }
 

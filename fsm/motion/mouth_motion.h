@@ -8,8 +8,8 @@
 namespace fsm {
 
 /// The value of each mouth parameter when Mouth.N is at 100 %: mm, for jaw Y degrees.
-inline constexpr std::array<float, kMouthParameters> kFullMouth = {4, 4, 4,  4, -6, 4, -6, 4, 5,
-                                                                   5, 5, 15, 4, 1,  1, 1,  1};
+inline constexpr std::array<float, kMouthParameters> kMouthAtFull = {4, 4, 4,  4, -6, 4, -6, 4, 5,
+                                                                     5, 5, 15, 4, 1,  1, 1,  1};
 
 /// Moves the mouth by its parameters (slots Mouth.N), on the layer `mouth`.
 class MouthMotion : public MotionSource {

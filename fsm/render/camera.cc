@@ -36,8 +36,8 @@ glm::vec3 MovedBy(const Figure& placed, const Camera& camera, float half_view) {
   return {unit * placed.translation[0], unit * placed.translation[1], 0.0f};
 }
 
-View FrameParallel(const Figure& placed, const Camera& camera, const ParallelView& parallel,
-                   float aspect, int height) {
+FrameCamera FrameParallel(const Figure& placed, const Camera& camera, const ParallelView& parallel,
+                          float aspect, int height) {
   constexpr float kFar = 20000.0f;  // so far that light and highlights are almost parallel
   const glm::vec3 centre = parallel.centre;
   const float half = parallel.half_mm * DistanceOf(camera);
@@ -45,7 +45,7 @@ View FrameParallel(const Figure& placed, const Camera& camera, const ParallelVie
               half_height = half / std::max(aspect, 1.0f);
   const float angle = glm::radians(camera.angle_degrees);
   const glm::vec3 aim = centre + glm::vec3(0.0f, camera.height_mm, 0.0f);
-  View view;
+  FrameCamera view;
   view.eye = aim + kFar * glm::vec3(std::sin(angle), 0.0f, std::cos(angle));
   view.world_to_clip =
       glm::ortho(-half_width, half_width, -half_height, half_height, 0.0f, 2 * kFar) *
@@ -60,8 +60,8 @@ View FrameParallel(const Figure& placed, const Camera& camera, const ParallelVie
 
 }  // namespace
 
-View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height,
-                    const std::optional<ParallelView>& parallel) {
+FrameCamera ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height,
+                           const std::optional<ParallelView>& parallel) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   if (parallel) return FrameParallel(placed, camera, *parallel, aspect, height);
   const float framed_height = std::max(kFramedTop - kFramedBottom, kFramedWidth / aspect);
@@ -72,7 +72,7 @@ View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int h
   const float angle = glm::radians(camera.angle_degrees);
 
   // From the side, the head's own axis stays in the middle of the view.
-  View view;
+  FrameCamera view;
   const glm::vec3 outward(std::sin(angle), 0.0f, std::cos(angle));
   view.eye = glm::vec3(0.0f, middle, 0.0f) + outward * (kFaceDepth + distance);
   view.world_to_clip =

@@ -10,7 +10,7 @@
 namespace fsm {
 
 /// The poses of viewer and figure. Millimetres.
-struct View {
+struct FrameCamera {
   glm::mat4 figure_to_world;  ///< from the head's frame; rotation, translation, uniform scale
   glm::mat4 world_to_clip;
   glm::vec3 eye;             ///< the viewer's position in the world's frame
@@ -24,7 +24,7 @@ struct View {
 /// one's longer side fills that of the picture, and the figure rotates and scales about its centre,
 /// by z, then y, then x; both are as in the original. The camera's distance, height and angle act
 /// on it as on a portrait, its field does not.
-View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height,
-                    const std::optional<ParallelView>& parallel = {});
+FrameCamera ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height,
+                           const std::optional<ParallelView>& parallel = {});
 
 }  // namespace fsm

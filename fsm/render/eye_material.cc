@@ -33,7 +33,7 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   if (pictured) SetPictures(frame, eyes);
 }
 
-void EyeMaterial::SetEyeballs(const View& view, const Sided<MeasuredEye>& eyes,
+void EyeMaterial::SetEyeballs(const FrameCamera& view, const Sided<MeasuredEye>& eyes,
                               const Sided<EyeGeometry>& geometry) const {
   const glm::mat3 rotation(view.figure_to_world);
   const float scale = glm::length(rotation[0]);

@@ -14,7 +14,7 @@ class EyeMaterial {
   void Begin(const MaterialFrame& frame) const;
 
  private:
-  void SetEyeballs(const View& view, const Sided<MeasuredEye>& eyes,
+  void SetEyeballs(const FrameCamera& view, const Sided<MeasuredEye>& eyes,
                    const Sided<EyeGeometry>& geometry) const;
   void SetPictures(const MaterialFrame& frame, const Sided<MeasuredEye>& eyes) const;
 

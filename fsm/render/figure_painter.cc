@@ -12,7 +12,7 @@ bool IsDrawnFromBothSides(const HeadSurface::Part& part) {
 }  // namespace
 
 void FigurePainter::Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& vertices,
-                         const View& view, const Scene& scene, float error_pixels,
+                         const FrameCamera& view, const Scene& scene, float error_pixels,
                          GlTarget& target) {
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Clear(GL_DEPTH_BUFFER_BIT);

@@ -19,8 +19,8 @@ class FigurePainter {
       : gl_(gl), appearance_(appearance), software_(software), materials_(gl, appearance) {}
   /// `vertices`: those that on_gpu.arrays is bound to, at least the measured ones.
   /// `error_pixels`: see Renderer::SetMaxErrorPixels.
-  void Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& vertices, const View& view,
-            const Scene& scene, float error_pixels, GlTarget& target);
+  void Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& vertices,
+            const FrameCamera& view, const Scene& scene, float error_pixels, GlTarget& target);
 
  private:
   void DrawParts(const std::vector<DrawnPart>& parts);

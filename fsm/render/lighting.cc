@@ -30,8 +30,9 @@ Lamps LampsOf(const Appearance& appearance, const Scene& scene) {
 
 }  // namespace
 
-MaterialFrame FrameOf(const Appearance& appearance, const View& view, const HeadDescription& head,
-                      const HeadVertices& vertices, const Scene& scene) {
+MaterialFrame FrameOf(const Appearance& appearance, const FrameCamera& view,
+                      const HeadDescription& head, const HeadVertices& vertices,
+                      const Scene& scene) {
   const Lamps lamps = LampsOf(appearance, scene);
   const float room = appearance.photo_room_light;
   const float usual = appearance.lamp.key.light.g + appearance.lamp.fill.light.g + room;

@@ -24,7 +24,7 @@ struct Lamps {
 
 /// What the materials of a head know about the frame being drawn. Borrowed for the frame.
 struct MaterialFrame {
-  const View& view;
+  const FrameCamera& view;
   const HeadDescription& head;
   const HeadVertices& vertices;  ///< in the head's own frame
   Lamps lamps;
@@ -35,8 +35,9 @@ struct MaterialFrame {
   Sided<glm::vec4> creases;  ///< depth of each Crease but the nose's, 0..1
   Sided<float> nose_creases;
 };
-MaterialFrame FrameOf(const Appearance& appearance, const View& view, const HeadDescription& head,
-                      const HeadVertices& vertices, const Scene& scene);
+MaterialFrame FrameOf(const Appearance& appearance, const FrameCamera& view,
+                      const HeadDescription& head, const HeadVertices& vertices,
+                      const Scene& scene);
 
 /// Compiles a program from its own sources and the code that all programs share to transform and
 /// light a head's vertices. `more` precedes both.

@@ -63,8 +63,8 @@ void Materials::BindOrPlain(GLuint texture, TextureUnit unit) {
   Bind(texture != 0 ? texture : shared_textures_[kPlain], unit);
 }
 
-void Materials::BeginFrame(const View& view, const GpuHead& head, const HeadVertices& vertices,
-                           const Scene& scene) {
+void Materials::BeginFrame(const FrameCamera& view, const GpuHead& head,
+                           const HeadVertices& vertices, const Scene& scene) {
   head_ = &head;
   const MaterialFrame frame = FrameOf(appearance_, view, head.description, vertices, scene);
   creased_ = frame.creases != Sided<glm::vec4>{} || frame.nose_creases != Sided<float>{};

@@ -21,7 +21,7 @@ class Materials {
 
   /// Sets the uniforms of every program for a frame. `vertices` are in the head's own frame; `head`
   /// stays in use until the next call.
-  void BeginFrame(const View& view, const GpuHead& head, const HeadVertices& vertices,
+  void BeginFrame(const FrameCamera& view, const GpuHead& head, const HeadVertices& vertices,
                   const Scene& scene);
   /// Tells whether nothing of a part is visible in this frame: teeth, gums and tongue behind closed
   /// lips.

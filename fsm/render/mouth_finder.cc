@@ -6,7 +6,7 @@
 
 namespace fsm {
 
-MouthFinder::MouthFinder(const MouthLandmarks& mouth) {
+MouthFinder::MouthFinder(const MouthVertices& mouth) {
   if (mouth.seam.size() >= kColumns && mouth.corners && mouth.incisors) mouth_ = mouth;
 }
 

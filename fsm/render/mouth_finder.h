@@ -19,7 +19,7 @@ class MouthFinder {
   static constexpr int kColumns = 11;  ///< of points on the lips; the shader has it as well
 
   MouthFinder() = default;
-  explicit MouthFinder(const MouthLandmarks& mouth);
+  explicit MouthFinder(const MouthVertices& mouth);
 
   /// The opening in the mouth's own frame, millimetres: x from the agent's right corner (-) to the
   /// left one, y up along the upper incisors, origin midway between the corners.
@@ -38,7 +38,7 @@ class MouthFinder {
   void AppendVertices(std::vector<std::uint32_t>& out) const;
 
  private:
-  std::optional<MouthLandmarks> mouth_;
+  std::optional<MouthVertices> mouth_;
 };
 
 }  // namespace fsm

@@ -19,7 +19,7 @@ namespace {
 using step::PointAt;
 
 /// Interpolates the lips at `x` between the pairs of the seam, which go from -x to +x.
-step::LipPair LipsAt(float x, const MouthLandmarks& mouth, std::span<const glm::vec3> position) {
+step::LipPair LipsAt(float x, const MouthVertices& mouth, std::span<const glm::vec3> position) {
   const auto pair = [&](auto at) {
     return step::LipPair{position[at->first], position[at->second]};
   };

@@ -28,7 +28,7 @@ class Head {
   /// Returns the surface for users that may outlive the head.
   const std::shared_ptr<const HeadSurface>& shared_surface() const { return surface_; }
   const Rig& rig() const { return rig_; }
-  const MouthLandmarks& mouth() const { return rig_.data().mouth; }
+  const MouthVertices& mouth() const { return rig_.data().mouth; }
   /// Returns the centre of an eyeball at rest.
   glm::vec3 EyeCentre(Side side) const { return rig_.data().eyes.centre[side]; }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.

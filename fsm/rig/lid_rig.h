@@ -15,7 +15,7 @@ struct LidRig {
   struct Vertex {
     std::uint32_t vertex = 0;
     Side side{};
-    step::LidPoint point{};
+    step::LidPlace point{};
     bool is_lid = false;  ///< true for the lid itself, false for the fold behind it
   };
   std::vector<Vertex> vertices;

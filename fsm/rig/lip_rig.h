@@ -18,21 +18,21 @@ struct Incisors {
 
 /// The vertices of a mouth that the rig keeps the lips together by, measures the mouth by, and by
 /// which the renderer finds the light that enters it.
-struct MouthLandmarks {
-  using LipPair = std::pair<std::uint32_t, std::uint32_t>;
+struct MouthVertices {
+  using SeamPair = std::pair<std::uint32_t, std::uint32_t>;
   /// Pairs of upper and lower lip vertices that meet when the mouth is closed, from -x to +x, with
   /// the median in the middle; may be empty.
-  std::vector<LipPair> seam;
+  std::vector<SeamPair> seam;
   std::optional<Sided<std::uint32_t>> corners;  ///< none: the mouth cannot be measured
   std::optional<Incisors> incisors;  ///< none: no teeth are lit by what enters between the lips
 
   /// REQUIRES: `seam` is not empty.
-  const LipPair& Middle() const { return seam[seam.size() / 2]; }
+  const SeamPair& Middle() const { return seam[seam.size() / 2]; }
 };
 
 /// Lips that must not cross, and must not stay open when they are sealed.
 struct LipRig {
-  /// For each pair of MouthLandmarks::seam the offset from lower to upper vertex in a closed mouth,
+  /// For each pair of MouthVertices::seam the offset from lower to upper vertex in a closed mouth,
   /// millimetres; empty: 0.
   std::vector<glm::vec3> apart_at_rest;
   glm::vec3 ApartAtRest(std::size_t pair) const {
@@ -40,7 +40,7 @@ struct LipRig {
   }
   struct Follower {
     std::uint32_t vertex;
-    std::uint32_t pair;  ///< index into MouthLandmarks::seam: the pair whose gap moves it
+    std::uint32_t pair;  ///< index into MouthVertices::seam: the pair whose gap moves it
     float hold;          ///< -1..1: > 0 on the upper lip, < 0 on the lower
   };
   /// Returns the signed fraction of its pair's gap by which a follower moves.

@@ -112,7 +112,7 @@ struct RigData {
   std::vector<glm::vec3> rest, rest_normal;  ///< per vertex
   std::vector<Bone> bone;                    ///< per vertex
   std::vector<SkinWeights> weights;          ///< per vertex
-  MouthLandmarks mouth;
+  MouthVertices mouth;
   UnitTable units;                    ///< what each action unit does, and how units combine
   std::optional<int> asymmetry_seed;  ///< for UnitCombiner; none: both sides alike
   /// Whether UnitChannels computes the displacements of the action units from `units` and

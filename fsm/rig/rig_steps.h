@@ -43,7 +43,7 @@ struct StepDefinition {
   void (*check)(const RigData& data, const VertexChecker& checker);
   /// Reduces the step's data to some vertices (OnlyVertices); null: they name no vertices.
   void (*pick)(RigData& data, const VertexPick& pick);
-  /// Adds the vertices, beside those of MouthLandmarks, from which the step derives the positions
+  /// Adds the vertices, beside those of MouthVertices, from which the step derives the positions
   /// of others; null: none.
   void (*reads)(const RigData& data, std::vector<std::uint32_t>& vertices);
   /// Packs what the step's kernel reads of a rig; its name is that of the step.

@@ -94,7 +94,7 @@ FUNCTION Jaw JawByChin(Jaw jaw, vec3 before, vec3 after) {
 // ---- Lids and eyes.
 
 // A lid's vertex in the frame of the eye before its EyeTransform. Angles are upward from straight ahead.
-struct LidPoint {
+struct LidPlace {
   float upper, lower;              // part in each lid's rotation, 0..1
   float upper_angle, lower_angle;  // of the lid margins at rest
   float meet_angle;                // where the closed lids meet
@@ -116,7 +116,7 @@ struct Eye {
 
 // Returns the angle by which a vertex rotates about the axis of the lids. A raised lower lid goes up nearly as far
 // beside the middle (sqrt), so that it stays a curve.
-FUNCTION float LidAngle(LidPoint lid, Eye eye) {
+FUNCTION float LidAngle(LidPlace lid, Eye eye) {
   float upper = lid.upper_angle + lid.opening * eye.upper_open / kLidRadius;
   float raised = eye.lower_raised * (eye.lower_raised > 0.0f ? sqrt(lid.opening) : lid.opening);
   float lower = lid.lower_angle + (lid.opening * eye.lower_open + raised) / kLidRadius;
@@ -126,7 +126,7 @@ FUNCTION float LidAngle(LidPoint lid, Eye eye) {
   return lid.upper * (upper - lid.upper_angle) + lid.lower * (lower - lid.lower_angle);
 }
 
-FUNCTION vec3 WithLids(LidPoint lid, Eye eye, vec3 p) {
+FUNCTION vec3 WithLids(LidPlace lid, Eye eye, vec3 p) {
   float angle = LidAngle(lid, eye);
   if (angle == 0.0f) return p;
   float c = cos(angle);
@@ -341,7 +341,7 @@ struct ChannelEntry {
 };
 struct LidRecord {
   uint vertex, side;
-  LidPoint point;
+  LidPlace point;
   uint is_lid;  // 0 or 1
 };
 struct BallLidRecord {

@@ -268,7 +268,7 @@ TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPa
   RigData skin = TransferRig(model, *from_, pairs_);
   const auto head = RigUnriggedHead(std::move(model), std::move(skin));
   const HeadSurface& topology = head->surface();
-  const MouthLandmarks &mouth = head->mouth(), &known_mouth = to_->mouth();
+  const MouthVertices &mouth = head->mouth(), &known_mouth = to_->mouth();
   EXPECT_EQ(mouth.incisors->upper, known_mouth.incisors->upper);
   EXPECT_EQ(mouth.incisors->lower, known_mouth.incisors->lower);
   ASSERT_EQ(mouth.seam.size(), known_mouth.seam.size());

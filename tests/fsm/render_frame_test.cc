@@ -359,7 +359,7 @@ TEST_F(FrameTest, HeadWithoutEyesOrPartsIsDrawn) {
 TEST(PortraitTest, HeadAndShouldersStayInViewInEveryShape) {
   for (const auto& [width, height] :
        {std::pair{640, 480}, {480, 640}, {1920, 1080}, {256, 256}, {200, 600}}) {
-    const View view = ViewOfPortrait({}, Camera{}, width, height);
+    const FrameCamera view = ViewOfPortrait({}, Camera{}, width, height);
     for (const glm::vec3 point : {glm::vec3(0, 145, 0), {0, -160, 30}, {-95, 20, 0}, {95, 20, 0}}) {
       const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(point, 1.0F);
       EXPECT_LT(std::abs(clip.x), clip.w) << width << " x " << height;
@@ -370,7 +370,7 @@ TEST(PortraitTest, HeadAndShouldersStayInViewInEveryShape) {
 
 TEST(PortraitTest, CameraMovesAsAsked) {
   const auto seen = [](const Camera& camera, const glm::vec3& point) {
-    const View view = ViewOfPortrait({}, camera, 640, 480);
+    const FrameCamera view = ViewOfPortrait({}, camera, 640, 480);
     const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(point, 1.0F);
     return glm::vec3(clip) / clip.w;
   };
@@ -508,18 +508,18 @@ TEST(ContextTest, TwoContextsTakeTurns) {
 }
 
 /// Where a place of the figure comes out, -1..1 in both directions.
-glm::vec2 Seen(const View& view, glm::vec3 place) {
+glm::vec2 Seen(const FrameCamera& view, glm::vec3 place) {
   const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(place, 1);
   return glm::vec2(clip) / clip.w;
 }
 
-View ParallelPortrait(const Figure& figure, int width, int height) {
+FrameCamera ParallelPortrait(const Figure& figure, int width, int height) {
   Camera camera;
   camera.moves_by_half_views = true;
   return ViewOfPortrait(figure, camera, width, height, ParallelView{{10, -20, 30}, 100});
 }
 
-void ExpectSeen(const View& view, glm::vec3 place, glm::vec2 expected) {
+void ExpectSeen(const FrameCamera& view, glm::vec3 place, glm::vec2 expected) {
   const glm::vec2 seen = Seen(view, place);
   EXPECT_NEAR(seen.x, expected.x, 1e-4F);
   EXPECT_NEAR(seen.y, expected.y, 1e-4F);

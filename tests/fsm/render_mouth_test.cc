@@ -33,7 +33,7 @@ class MouthPicture {
     head_->Evaluate(state, vertices_);
     renderer->DrawVertices(*head_, vertices_, state.figure, scene);
     renderer->Read(image_);
-    const View view = ViewOfPortrait(state.figure, scene.camera, kMouthSide, kMouthSide);
+    const FrameCamera view = ViewOfPortrait(state.figure, scene.camera, kMouthSide, kMouthSide);
     to_clip_ = view.world_to_clip * view.figure_to_world;
   }
 
@@ -56,7 +56,7 @@ class MouthPicture {
   float Light(glm::vec3 place) const { return glm::dot(At(place), glm::vec3(0.3F, 0.6F, 0.1F)); }
 
   glm::vec3 Vertex(std::uint32_t i) const { return vertices_.position[i]; }
-  const MouthLandmarks& mouth() const { return head_->mouth(); }
+  const MouthVertices& mouth() const { return head_->mouth(); }
   /// The upper or the lower lip's edge at one x.
   glm::vec3 Lip(bool upper, float x) const {
     glm::vec3 best(1e6F);

@@ -54,7 +54,7 @@ std::vector<glm::vec3> Drawn(const PhotoHead& set, const std::vector<glm::vec3>&
   renderer->DrawVertices(*head, vertices, state.figure, scene);
   Image image;
   renderer->Read(image);
-  const View view = ViewOfPortrait(state.figure, scene.camera, kSide, kSide);
+  const FrameCamera view = ViewOfPortrait(state.figure, scene.camera, kSide, kSide);
   std::vector<glm::vec3> seen;
   for (const glm::vec3 place : places) {
     const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(place, 1);

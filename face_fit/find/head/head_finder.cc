@@ -110,7 +110,7 @@ class HeadMatcher {
     for (const fsm::Bone bone : model.mesh.bone) {
       is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    const ObservedHead::Skin skin{model.SkinTriangles(), model.has_uv_seams};
+    const ObservedHead::Skin skin{model.FleshTriangles(), model.has_uv_seams};
     const auto other =
         ObservedHead::Observe(networks_, fsm::RigUnriggedHead(std::move(model)), name_, skin);
     if (!other) return {};

@@ -22,7 +22,7 @@ class PortraitView {
 
  private:
   int size_;
-  fsm::View view_;
+  fsm::FrameCamera view_;
 };
 
 }  // namespace facefit

@@ -105,7 +105,7 @@ void JsonNumbers(const json& object, const char* key, std::span<float> out) {
   }
 }
 
-void Refuse(const std::string& what) { throw vm::Failure({vm::Errc::kBadValue, what}); }
+void RefuseFile(const std::string& what) { throw vm::Failure({vm::Errc::kBadValue, what}); }
 
 GltfDocument::GltfDocument(std::string_view bytes, Beside beside) : beside_(std::move(beside)) {
   const Chunks chunks = bytes.starts_with("glTF") ? SplitBinary(bytes) : Chunks{bytes, {}};
@@ -117,27 +117,27 @@ GltfDocument::~GltfDocument() = default;
 GltfDocument::Chunks GltfDocument::SplitBinary(std::string_view bytes) {
   constexpr std::size_t kJson = 0x4E4F534A, kBuffer = 0x004E4942;
   if (bytes.size() < 20 || Word(bytes, 4) != 2) {
-    Refuse("byte 4: version 2 of binary glTF expected");
+    RefuseFile("byte 4: version 2 of binary glTF expected");
   }
   if (Word(bytes, 8) > bytes.size()) {
-    Refuse("byte " + std::to_string(bytes.size()) + ": it ends here, but " +
-           std::to_string(Word(bytes, 8)) + " bytes are announced");
+    RefuseFile("byte " + std::to_string(bytes.size()) + ": it ends here, but " +
+               std::to_string(Word(bytes, 8)) + " bytes are announced");
   }
   Chunks chunks;
   std::size_t at = 12;
   for (int chunk = 0; at + 8 <= bytes.size(); ++chunk) {
     const std::size_t length = Word(bytes, at), kind = Word(bytes, at + 4);
     if (length > bytes.size() - at - 8) {
-      Refuse("byte " + std::to_string(at) + ": a chunk of " + std::to_string(length) +
-             " bytes is cut off");
+      RefuseFile("byte " + std::to_string(at) + ": a chunk of " + std::to_string(length) +
+                 " bytes is cut off");
     }
     const std::string_view body = bytes.substr(at + 8, length);
-    if (chunk == 0 && kind != kJson) Refuse("byte 16: a chunk of JSON expected");
+    if (chunk == 0 && kind != kJson) RefuseFile("byte 16: a chunk of JSON expected");
     if (chunk == 0) chunks.json = body;
     if (chunk == 1 && kind == kBuffer) chunks.buffer = body;
     at += 8 + length + (4 - length % 4) % 4;
   }
-  if (chunks.json.data() == nullptr) Refuse("byte 12: a chunk of JSON expected");
+  if (chunks.json.data() == nullptr) RefuseFile("byte 12: a chunk of JSON expected");
   return chunks;
 }
 
@@ -148,17 +148,17 @@ void GltfDocument::ParseJson(std::string_view text) {
   };
   auto parsed = json::parse(text.begin(), text.end(), shallow, false);
   if (parsed.is_discarded() || !parsed.is_object() || !parsed.contains("asset")) {
-    Refuse("no glTF: JSON with an \"asset\" expected");
+    RefuseFile("no glTF: JSON with an \"asset\" expected");
   }
   json_ = std::make_unique<json>(std::move(parsed));
   if (!JsonText(JsonMember(root(), "asset"), "version").starts_with("2")) {
-    Refuse("asset: version 2 expected");
+    RefuseFile("asset: version 2 expected");
   }
   for (const json& needed : JsonMember(root(), "extensionsRequired")) {
     for (const char* packed :
          {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
       if (needed == json(packed)) {
-        Refuse(std::string("extensionsRequired: ") + packed + ": " + kPackedMesh);
+        RefuseFile(std::string("extensionsRequired: ") + packed + ": " + kPackedMesh);
       }
     }
   }
@@ -180,7 +180,7 @@ void GltfDocument::ReadBuffers(std::optional<std::string_view> own) {
                          "its buffers hold more than " + std::to_string(kMaxMeshBytes) + " bytes"});
     }
     if (JsonInteger(buffer, "byteLength", 0) > static_cast<std::int64_t>(size)) {
-      Refuse(place + ": it is shorter than its byteLength");
+      RefuseFile(place + ": it is shorter than its byteLength");
     }
   }
 }
@@ -204,12 +204,12 @@ std::string GltfDocument::Resolve(const std::string& uri) const {
     auto bytes = comma == std::string::npos
                      ? std::nullopt
                      : vm::DecodeBase64(std::string_view(uri).substr(comma + 8));
-    if (!bytes) Refuse("its data URI is not base64");
+    if (!bytes) RefuseFile("its data URI is not base64");
     return std::move(*bytes);
   }
   auto bytes = uri.empty() || !beside_ ? std::nullopt : beside_(uri);
   if (!bytes) {
-    Refuse("its file '" + uri.substr(0, 80) + "' cannot be read from beside it");
+    RefuseFile("its file '" + uri.substr(0, 80) + "' cannot be read from beside it");
   }
   return std::move(*bytes);
 }
@@ -222,14 +222,14 @@ GltfDocument::BufferView GltfDocument::ViewOf(std::int64_t index) const {
                      stride = JsonInteger(view, "byteStride", 0);
   if (buffer < 0 || static_cast<std::size_t>(buffer) >= buffers_.size() || offset < 0 ||
       length < 0 || stride < 0 || stride > 65536) {
-    Refuse("bufferViews[" + std::to_string(index) + "]: it points nowhere");
+    RefuseFile("bufferViews[" + std::to_string(index) + "]: it points nowhere");
   }
   const std::string& bytes = buffers_[static_cast<std::size_t>(buffer)];
   const auto size = static_cast<std::int64_t>(bytes.size());
   if (offset > size || length > size - offset) {
-    Refuse("bufferViews[" + std::to_string(index) + "]: bytes " + std::to_string(offset) + " to " +
-           std::to_string(offset) + " + " + std::to_string(length) + " are not in its buffer of " +
-           std::to_string(size));
+    RefuseFile("bufferViews[" + std::to_string(index) + "]: bytes " + std::to_string(offset) +
+               " to " + std::to_string(offset) + " + " + std::to_string(length) +
+               " are not in its buffer of " + std::to_string(size));
   }
   const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data()) + offset;
   return BufferView{{first, static_cast<std::size_t>(length)}, static_cast<std::size_t>(stride)};
@@ -247,7 +247,7 @@ void GltfDocument::ReadElements(const Elements& elements, const std::string& pla
       (elements.count > 0 &&
        (stride < tight || static_cast<std::size_t>(offset) + stride * (elements.count - 1) + tight >
                               view.bytes.size()))) {
-    Refuse(place + ": its elements are not in its bufferView");
+    RefuseFile(place + ": its elements are not in its bufferView");
   }
   for (std::size_t i = 0; i < elements.count; ++i) {
     const std::uint8_t* at = view.bytes.data() + static_cast<std::size_t>(offset) + i * stride;
@@ -264,7 +264,7 @@ std::vector<double> GltfDocument::Values(std::int64_t index, int width) const {
   const std::int64_t component = JsonInteger(accessor, "componentType");
   const int own_width = WidthOf(JsonText(accessor, "type"));
   if (count < 0 || !KindOf(component) || own_width == 0 || own_width != width) {
-    Refuse(place + ": " + std::to_string(width) + " numbers of a known kind expected");
+    RefuseFile(place + ": " + std::to_string(width) + " numbers of a known kind expected");
   }
   const auto numbers = static_cast<std::size_t>(width);
   // An accessor without a bufferView is all zeros, so a small file can declare any count.
@@ -291,7 +291,7 @@ void GltfDocument::FillSparse(const Elements& own, const std::string& place,
   const json& indices = JsonMember(sparse, "indices");
   const std::int64_t index_type = JsonInteger(indices, "componentType");
   if (changed < 0 || static_cast<std::size_t>(changed) > own.count || !KindOf(index_type)) {
-    Refuse(place + ": sparse: a damaged list");
+    RefuseFile(place + ": sparse: a damaged list");
   }
   std::vector<std::size_t> vertex(static_cast<std::size_t>(changed));
   bool inside = true;
@@ -300,7 +300,7 @@ void GltfDocument::FillSparse(const Elements& own, const std::string& place,
                  inside = inside && v >= 0 && v < static_cast<double>(own.count);
                  vertex[i] = inside ? static_cast<std::size_t>(v) : 0;
                });
-  if (!inside) Refuse(place + ": sparse: an index beyond its elements");
+  if (!inside) RefuseFile(place + ": sparse: an index beyond its elements");
   ReadElements(
       {JsonMember(sparse, "values"), own.component, vertex.size(), own.width, own.normalised},
       place, [&](std::size_t i, std::size_t k, double v) { out[vertex[i] * own.width + k] = v; });

@@ -34,7 +34,7 @@ auto AtPlace(const std::string& place, const Read& read) {
   }
 }
 /// Throws the error of a damaged file; `what` begins with the place in the file.
-[[noreturn]] void Refuse(const std::string& what);
+[[noreturn]] void RefuseFile(const std::string& what);
 
 /// A parsed glTF 2.0 file: its JSON and its buffers, with every access checked. We do not use
 /// tinygltf because 2.7, the version available, trusts the offsets in a hostile file.

@@ -38,7 +38,7 @@ class GltfReader {
     head_.metres = true;
     head_.spring_rig.springs = springs_.springs();
     for (const std::int64_t node : nodes_.shown()) ReadMesh(node);
-    if (head_.parts.empty()) Refuse("no mesh of triangles is in it");
+    if (head_.parts.empty()) RefuseFile("no mesh of triangles is in it");
     for (const auto& expression : avatar_.expressions) targets_.AddExpression(expression);
     if (avatar_.eye_bone.right >= 0 && avatar_.eye_bone.left >= 0) ReadEyePivots();
     head_.eye_rig.gaze_ranges = avatar_.gaze_ranges;
@@ -92,7 +92,7 @@ class GltfReader {
     // Without a fallback the accessors of compressed geometry exist, but have no data.
     if (JsonMember(primitive, "extensions").contains("KHR_draco_mesh_compression") &&
         !document_.At("accessors", position).contains("bufferView")) {
-      Refuse("meshes[" + std::to_string(instance.mesh) + "]: " + kPackedMesh);
+      RefuseFile("meshes[" + std::to_string(instance.mesh) + "]: " + kPackedMesh);
     }
     // Primitives of a mesh often share their vertices.
     const GltfUvTransform uv = textures_.UvOfMaterial(JsonInteger(primitive, "material"));
@@ -125,8 +125,8 @@ class GltfReader {
     }
     for (std::uint32_t& i : indices) {
       if (i >= run.count) {
-        Refuse("meshes[" + std::to_string(instance.mesh) + "]: an index beyond its " +
-               std::to_string(run.count) + " vertices");
+        RefuseFile("meshes[" + std::to_string(instance.mesh) + "]: an index beyond its " +
+                   std::to_string(run.count) + " vertices");
       }
       i += static_cast<std::uint32_t>(run.first);
     }

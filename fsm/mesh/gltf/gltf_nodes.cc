@@ -78,12 +78,12 @@ void GltfNodes::ComputeWorld(const GltfDocument& document, std::int64_t node,
   if (node < 0 || static_cast<std::size_t>(node) >= world_.size()) return;
   const auto at = static_cast<std::size_t>(node);
   if (depth > kMaxNodeDepth || computed_[at]) {
-    Refuse("nodes[" + std::to_string(node) + "]: nodes that are their own parents");
+    RefuseFile("nodes[" + std::to_string(node) + "]: nodes that are their own parents");
   }
   computed_[at] = true;
   world_[at] = above * MatrixOf(document.At("nodes", node));
   if (!Usable(world_[at])) {
-    Refuse("nodes[" + std::to_string(node) + "]: its place is no finite number");
+    RefuseFile("nodes[" + std::to_string(node) + "]: its place is no finite number");
   }
   for (const std::int64_t child : JsonIntegers(document.At("nodes", node), "children")) {
     ComputeWorld(document, child, world_[at], depth + 1);

@@ -22,8 +22,8 @@ std::string VertexName(const GltfMeshInstance& instance, std::size_t vertex) {
 }
 
 void RefuseReach(const std::string& what) {
-  Refuse(what + " comes to lie farther than " + std::to_string(static_cast<long>(kMaxReach)) +
-         " metres from the origin");
+  RefuseFile(what + " comes to lie farther than " + std::to_string(static_cast<long>(kMaxReach)) +
+             " metres from the origin");
 }
 
 void RefuseSize() {
@@ -41,8 +41,8 @@ void GltfTargets::Read(const json& primitive, const GltfMeshInstance& instance,
     if (!targets.is_array() || !targets[t].contains("POSITION")) continue;
     const auto by = document_.Numbers(JsonInteger(targets[t], "POSITION"), 3);
     if (by.size() < 3 * transforms.size()) {
-      Refuse("meshes[" + std::to_string(instance.mesh) + "]: target " + std::to_string(t) +
-             " has fewer vertices than the mesh");
+      RefuseFile("meshes[" + std::to_string(instance.mesh) + "]: target " + std::to_string(t) +
+                 " has fewer vertices than the mesh");
     }
     const std::string name = t < names.size() ? names[t] : "target" + std::to_string(t);
     const auto [known, fresh] = shape_of_.try_emplace(name, head_.shapes.size());

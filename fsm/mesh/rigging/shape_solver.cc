@@ -72,7 +72,7 @@ ShapeSolver::ProbeMotion ShapeSolver::MotionOf(const Rig& face, const FaceState&
   for (const std::uint32_t v : probes_) {
     for (int c = 0; c < 3; ++c) motion.moves.push_back(vertices_.position[v][c] - rest_[v][c]);
   }
-  if (const MouthLandmarks& mouth = face.data().mouth; !mouth.seam.empty()) {
+  if (const MouthVertices& mouth = face.data().mouth; !mouth.seam.empty()) {
     const auto [upper, lower] = mouth.Middle();
     motion.gap_mm = std::max(vertices_.position[upper].y - vertices_.position[lower].y, 0.0f);
   }

@@ -260,7 +260,7 @@ DeformationTransfer TransferBetween(const Head& source, const UnriggedHead& mode
   try {
     return {
         {rest.position, SkinTriangles(source.surface()), false, EyeballTriangles(source.surface())},
-        {model.mesh.position, model.SkinTriangles(), model.has_uv_seams, model.EyeTriangles()},
+        {model.mesh.position, model.FleshTriangles(), model.has_uv_seams, model.EyeTriangles()},
         pairs};
   } catch (const std::runtime_error& error) {
     if (model.name.empty()) throw;

@@ -284,7 +284,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     fsm::UnriggedHead model = fsm::AlignImportedHead(*file, place, -43);
     const ObservedHead other = vm::OrThrow(
         ObservedHead::Observe(*networks_, fsm::RigUnriggedHead(fsm::UnriggedHead(model)), name,
-                              {model.SkinTriangles(), model.has_uv_seams}));
+                              {model.FleshTriangles(), model.has_uv_seams}));
     TrueHead made;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       // At the outline the network may miss the cheek and see an ear or the neck, centimetres

@@ -66,7 +66,7 @@ class HeadFinderTest : public NetworkTest {
     subject.pairs = points.pairs;
     for (auto& pair : subject.pairs) pair.to = place(pair.to);
     subject.model = fsm::AlignImportedHead(*file, place, -43);
-    subject.flesh = subject.model.SkinTriangles();
+    subject.flesh = subject.model.FleshTriangles();
     subject.eyes = subject.model.EyeTriangles();
     // The shapes number the file's own lines; the reader keeps what its faces use, by place.
     const auto obj = fsm::ReadObj(folder + "/neutral.obj");
