@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "fsm/motion/base/fixations.h"
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/base/random_streams.h"
 #include "fsm/motion/inputs/motion_inputs.h"
 
@@ -114,7 +115,7 @@ double EyeMotion::BlinkAt(vm::Time t) const {
 }
 
 void EyeMotion::Contribute(vm::Time t, MotionLayers& layers) const {
-  MotionLayer& layer = layers.Layer("eyes");
+  MotionLayer& layer = layers.Layer(LayerName::kEyes);
   const float thinking = thinking_.At(t), vergence = vergence_deg_.At(t);
   const EyeAngles thought = thinking > 0 ? ThinkingAt(t) : EyeAngles{};
   const EyeAngles left = rotation_.left.At(t), right = rotation_.right.At(t);
@@ -128,7 +129,7 @@ void EyeMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   layer.look.gaze.left[kToRight] -= vergence;
   layer.look.gaze.right[kToRight] += vergence;
   layer.blink.left = layer.blink.right = static_cast<float>(BlinkAt(t));
-  layers.AddSignal("at_user", on_user_.At(t));
+  layers.AddSignal(SignalName::kAtUser, on_user_.At(t));
 }
 
 vm::Time EyeMotion::BlinksEnd(vm::Time t) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/base/motion_errors.h"
 
 namespace fsm {
@@ -44,7 +45,7 @@ void HeadMotion::StopMovements(vm::Time now) {
 }
 
 void HeadMotion::Contribute(vm::Time t, MotionLayers& layers) const {
-  Angles& angles = layers.Layer("head").head_rotation;
+  Angles& angles = layers.Layer(LayerName::kHead).head_rotation;
   angles = turn_.At(t);
   for (const Movement& movement : movements_) {
     if (t >= EndOf(movement)) continue;

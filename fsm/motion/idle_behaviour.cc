@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "fsm/motion/base/fixations.h"
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/inputs/idle_kinds.h"
 #include "fsm/motion/inputs/motion_inputs.h"
 
@@ -90,7 +91,7 @@ double IdleBehaviour::NodAt(const IdleRun& run, vm::Time t) const {
 }
 
 void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
-  MotionLayer& layer = layers.Layer("idle");
+  MotionLayer& layer = layers.Layer(LayerName::kIdle);
   AddMove(t, layer.head_rotation);
   for (const IdleRun& run : switches_[IdleKind::kUserdef].runs.At(t)) {
     Add(layer.head_rotation,
@@ -112,10 +113,12 @@ void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
   layer.look.gaze.left = layer.look.gaze.right = gaze;
   layer.blink.left = layer.blink.right = static_cast<float>(BlinkAt(t));
   for (const IdleRun& run : switches_[IdleKind::kNods].runs.At(t)) {
-    layers.Layer("nods").head_rotation[kDown] += static_cast<float>(run.weight * NodAt(run, t));
+    layers.Layer(LayerName::kNods).head_rotation[kDown] +=
+        static_cast<float>(run.weight * NodAt(run, t));
   }
   for (const IdleRun& run : switches_[IdleKind::kFace].runs.At(t)) {
-    AddTo(layers.Layer("idle_face").look, PatternAt(patterns_.auto_faces, run.pattern), run.weight);
+    AddTo(layers.Layer(LayerName::kIdleFace).look, PatternAt(patterns_.auto_faces, run.pattern),
+          run.weight);
   }
 }
 

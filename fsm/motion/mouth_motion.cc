@@ -1,5 +1,6 @@
 #include "fsm/motion/mouth_motion.h"
 
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/base/motion_errors.h"
 
 namespace fsm {
@@ -21,7 +22,7 @@ vm::Result<void> MouthMotion::Set(vm::Time now, int parameter, double strength) 
 }
 
 void MouthMotion::Contribute(vm::Time t, MotionLayers& layers) const {
-  MotionLayer& layer = layers.Layer("mouth");
+  MotionLayer& layer = layers.Layer(LayerName::kMouth);
   for (std::size_t i = 0; i < kMouthParameters; ++i) layer.mouth[i] = parameters_[i].At(t);
   layer.mouth_by_hand = layer.mouth;
 }

@@ -5,8 +5,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
+#include "fsm/base/table_reader.h"
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/face_motion.h"
 #include "tests/fsm/motion_support.h"
 
@@ -45,6 +48,23 @@ TEST(MotionLayersTest, ALayerStaysWhereItIsWhileOthersCome) {
   MotionLayer* const first = &layers.Layer("first");
   for (const std::string& name : names) layers.Layer(name);
   EXPECT_EQ(&layers.Layer("first"), first);
+}
+
+/// Returns the names that rows of a kind declare in the built-in mixing.txt.
+std::set<std::string_view> Declared(std::string_view kind) {
+  static const Table table("mixing.txt", TableText("mixing.txt"));
+  std::set<std::string_view> names;
+  for (const TableRow& row : table.rows()) {
+    if (row.key() == kind) names.insert(row.Word(1));
+  }
+  return names;
+}
+
+TEST(LayerNameTest, TheTableOfTheMixerDeclaresTheLayersAndSignalsThatTheSourcesHave) {
+  const auto& layers = LayerName::kAll;
+  const auto& signals = SignalName::kAll;
+  EXPECT_EQ(Declared("layer"), (std::set<std::string_view>(layers.begin(), layers.end())));
+  EXPECT_EQ(Declared("signal"), (std::set<std::string_view>(signals.begin(), signals.end())));
 }
 
 TEST(MotionSourceTest, ASourceFromOutsideIsMixedWithTheOthersWithoutARowOfItsOwn) {

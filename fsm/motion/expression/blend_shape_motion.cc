@@ -1,5 +1,6 @@
 #include "fsm/motion/expression/blend_shape_motion.h"
 
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/base/motion_errors.h"
 
 namespace fsm {
@@ -19,7 +20,7 @@ vm::Result<void> BlendShapeMotion::Set(vm::Time now, std::string_view name, doub
 }
 
 void BlendShapeMotion::Contribute(vm::Time t, MotionLayers& layers) const {
-  FaceLook& look = layers.Layer("blend_shapes").look;
+  FaceLook& look = layers.Layer(LayerName::kBlendShapes).look;
   for (const auto& [name, weight] : weights_) AddTo(look, shapes_.find(name)->second, weight.At(t));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/base/motion_errors.h"
 #include "fsm/motion/inputs/motion_inputs.h"
 
@@ -106,8 +107,8 @@ void ExpressionMotion::SetEmotion(vm::Time now, std::size_t index, double streng
 
 void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   Sided<std::array<FaceLook, kRegions>> now;
-  layers.AddSignal("expression", shown_.At(t));
-  FaceLook& out = layers.Layer("expression").look;
+  layers.AddSignal(SignalName::kExpression, shown_.At(t));
+  FaceLook& out = layers.Layer(LayerName::kExpression).look;
   for (const Side side : kSides) {
     std::size_t size = 0;
     for (std::size_t region = 0; region < kRegions; ++region) {
@@ -125,10 +126,10 @@ void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   for (std::size_t i = 0; i < emotions_.size(); ++i) {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
-    layers.AddSignal("expression", std::min(1.0f, weight));
+    layers.AddSignal(SignalName::kExpression, std::min(1.0f, weight));
     const auto found = expressions_.find(tables_.unit_list.face_slots[i].emotion);
     if (found == expressions_.end()) continue;
-    AddTo(layers.Layer("emotions").look, found->second.LookOf(1, weight), 1);
+    AddTo(layers.Layer(LayerName::kEmotions).look, found->second.LookOf(1, weight), 1);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "fsm/motion/expression/mood_motion.h"
 
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/base/motion_errors.h"
 
 namespace fsm {
@@ -19,7 +20,7 @@ vm::Result<void> MoodMotion::Set(vm::Time now, std::string_view name, double str
 }
 
 void MoodMotion::Contribute(vm::Time t, MotionLayers& layers) const {
-  layers.Layer("mood").look = look_.At(t);
+  layers.Layer(LayerName::kMood).look = look_.At(t);
 }
 
 }  // namespace fsm

@@ -1,5 +1,7 @@
 #include "fsm/motion/expression/unit_motion.h"
 
+#include "fsm/motion/base/layer_names.h"
+
 namespace fsm {
 namespace {
 
@@ -34,7 +36,7 @@ void UnitMotion::Set(vm::Time now, int unit, double strength) {
 }
 
 void UnitMotion::Contribute(vm::Time t, MotionLayers& layers) const {
-  MotionLayer& layer = layers.Layer("units");
+  MotionLayer& layer = layers.Layer(LayerName::kUnits);
   for (const auto& [number, track] : tracks_) {
     const auto found = names_.codes.find(number);
     if (found == names_.codes.end()) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fsm/motion/base/easing.h"
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/speech/speech_timing.h"
 
 namespace fsm {
@@ -78,8 +79,8 @@ MouthStream::WeightedHead MouthStream::HeadAt(vm::Time t) const {
 void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
   if (frames_.empty()) return;
   if (const WeightedHead head = HeadAt(t); head.weight > 0) {
-    layers.AddSignal("head_taken", head.weight);
-    MotionLayer& gestures = layers.Layer("stream_gestures");
+    layers.AddSignal(SignalName::kHeadTaken, head.weight);
+    MotionLayer& gestures = layers.Layer(LayerName::kStreamGestures);
     gestures.head_rotation = head.pose.angles;
     for (const Side side : kSides) {
       gestures.look.au[side][kInnerBrowRaiser] =
@@ -90,9 +91,9 @@ void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
   }
   const SpokenMouth mouth = MouthAt(t);
   if (mouth.weight <= 0) return;
-  layers.AddSignal("speaking", mouth.weight);
-  layers.AddSignal("stream_taken", mouth.weight);
-  mouth.Contribute(mouth_scale_.At(t), "mouth_stream", layers);
+  layers.AddSignal(SignalName::kSpeaking, mouth.weight);
+  layers.AddSignal(SignalName::kStreamTaken, mouth.weight);
+  mouth.Contribute(mouth_scale_.At(t), LayerName::kMouthStream, layers);
 }
 
 std::optional<vm::Time> MouthStream::NextMotion(vm::Time t) const {

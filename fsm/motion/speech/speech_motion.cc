@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/base/random_streams.h"
 #include "fsm/motion/inputs/motion_inputs.h"
 #include "fsm/motion/speech/speech_timing.h"
@@ -187,12 +188,12 @@ double SpeechMotion::BlinkAt(vm::Time t) const {
 
 void SpeechMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   const Mouth mouth = MouthAt(t);
-  layers.AddSignal("speaking", mouth.emotion_reduction);
-  mouth.Contribute(mouth_scale_.At(t), "speech", layers);
-  MotionLayer& gestures = layers.Layer("gestures");
+  layers.AddSignal(SignalName::kSpeaking, mouth.emotion_reduction);
+  mouth.Contribute(mouth_scale_.At(t), LayerName::kSpeech, layers);
+  MotionLayer& gestures = layers.Layer(LayerName::kGestures);
   MoveHeadAndBrows(t, gestures);
   AvertEyes(t, gestures);
-  ShowLooks(t, layers.Layer("text"));
+  ShowLooks(t, layers.Layer(LayerName::kText));
   gestures.blink.left = gestures.blink.right = static_cast<float>(BlinkAt(t));
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fsm/motion/base/layer_names.h"
 #include "fsm/motion/inputs/motion_settings.h"
 
 namespace fsm {
@@ -24,8 +25,8 @@ SpokenMouth Mix(const SpokenMouth& a, const SpokenMouth& b, double share_of_b) {
 void SpokenMouth::Contribute(double mouth_scale, std::string_view layer_name,
                              MotionLayers& layers) const {
   const double contact = weight * pose.contact;
-  layers.AddSignal("lips_taken", weight);
-  layers.AddSignal("contact", contact);
+  layers.AddSignal(SignalName::kLipsTaken, weight);
+  layers.AddSignal(SignalName::kContact, contact);
   MotionLayer& layer = layers.Layer(layer_name);
   double scale = mouth_scale / kFullMouthScale;
   if (scale > 1) scale = 1 + (scale - 1) * (1 - contact);  // a contact is not enlarged
