@@ -14,8 +14,8 @@ vm::Result<void> MouthMotion::Set(vm::Time now, int parameter, double strength) 
   if (auto fits = CheckStrength(strength); !fits) return fits;
   const auto index = static_cast<std::size_t>(parameter - 1);
   if (parameter < 1 || index >= kMouthParameters) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    fmt::format("{} is no mouth parameter; 1 to 17 expected", parameter));
+    return vm::Fail(vm::Errc::kBadValue, fmt::format("{} is no mouth parameter; 1 to {} expected",
+                                                     parameter, kMouthParameters));
   }
   parameters_[index].MoveTo(now, static_cast<float>(strength) * kMouthAtFull[index], kMove);
   return {};

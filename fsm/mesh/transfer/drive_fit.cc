@@ -9,8 +9,9 @@ namespace {
 
 constexpr float kMinGain = 5e-3f;  // drivers with less effect at full strength are dropped
 
-/// The range of a parameter in speech: millimetres, degrees for the jaw's opening.
-constexpr float FullOf(std::size_t parameter) { return parameter == kJawY ? 10.0f : 4.0f; }
+/// The range of a parameter in speech, which moves the mouth less than a hand may (kMouthAtFull):
+/// millimetres, degrees for the jaw's opening.
+constexpr float SpeechRangeOf(std::size_t parameter) { return parameter == kJawY ? 10.0f : 4.0f; }
 
 /// Solves a x = b for a symmetric positive definite `a` by Cholesky's decomposition; `b` becomes x.
 void SolvePositive(std::vector<std::vector<double>>& a, std::vector<std::vector<double>>& b) {
@@ -62,8 +63,9 @@ void DriveFit::AddSided(const Drive& drive, float full,
 MouthFit::Halves MouthFit::Split(const std::array<float, kMouthParameters>& mouth) {
   Halves halves{};
   for (std::size_t p = 0; p < kMouthParameters; ++p) {
-    halves[p] = static_cast<double>(std::max(mouth[p], 0.0f) / FullOf(p));
-    halves[kMouthParameters + p] = static_cast<double>(std::max(-mouth[p], 0.0f) / FullOf(p));
+    halves[p] = static_cast<double>(std::max(mouth[p], 0.0f) / SpeechRangeOf(p));
+    halves[kMouthParameters + p] =
+        static_cast<double>(std::max(-mouth[p], 0.0f) / SpeechRangeOf(p));
   }
   return halves;
 }
@@ -72,7 +74,8 @@ void MouthFit::AddParameters(const std::function<Weights(const FaceState&)>& wei
   for (std::size_t half = 0; half < kHalves; ++half) {
     const std::size_t parameter = half % kMouthParameters;
     FaceState state;
-    state.mouth[parameter] = half < kMouthParameters ? FullOf(parameter) : -FullOf(parameter);
+    state.mouth[parameter] =
+        half < kMouthParameters ? SpeechRangeOf(parameter) : -SpeechRangeOf(parameter);
     const Weights own = weights(state);
     for (std::size_t k = 0; k < gain_.size(); ++k) gain_[k][half] = static_cast<double>(own[k]);
   }
@@ -133,7 +136,7 @@ void MouthFit::AddTo(DriveFit& fit, Drive::Kind kind) const {
               {.kind = kind,
                .number = static_cast<std::uint16_t>(parameter),
                .half = half < kMouthParameters ? Drive::Half::kPositive : Drive::Half::kNegative},
-              gain / FullOf(parameter));
+              gain / SpeechRangeOf(parameter));
     }
   }
 }

@@ -52,9 +52,9 @@ vm::Result<void> ReadVisemeValues(const std::vector<std::string>& words, std::si
   const std::size_t count = words.size() - std::min(first, words.size());
   if (count < kMouthParameters || count > kShapeValues) {
     return vm::Fail(vm::Errc::kBadValue,
-                    fmt::format("{} numbers found; 17 mouth parameters, and up to three more for "
+                    fmt::format("{} numbers found; {} mouth parameters, and up to three more for "
                                 "seal, tongue and hold, expected",
-                                count));
+                                count, kMouthParameters));
   }
   Viseme out = viseme;
   for (std::size_t i = 0; i < count; ++i) {
@@ -90,9 +90,9 @@ namespace {
 Viseme ReadViseme(const TableRow& row) {
   if (row.size() != 1 + kShapeValues) {
     row.Refuse(
-        fmt::format("{} words found; a name, 17 mouth parameters, seal, tongue and hold "
+        fmt::format("{} words found; a name, {} mouth parameters, seal, tongue and hold "
                     "expected",
-                    row.size()));
+                    row.size(), kMouthParameters));
   }
   Viseme viseme;
   viseme.name = row.key();
