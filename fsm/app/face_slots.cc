@@ -9,8 +9,7 @@ constexpr SlotWord<Onset> kOnsets[] = {
     {"POSED", Onset::kPosed}, {"ELICITED", Onset::kElicited}, {"NATURAL", Onset::kPosed}};
 
 Angles AnglesOf(const FsmCore& core, const vm::SetValue& value) {
-  return {static_cast<float>(value.number(0)), static_cast<float>(value.number(1)),
-          core.conventions.tilt * static_cast<float>(value.number(2))};
+  return {RealOf(value, 0), RealOf(value, 1), core.conventions.tilt * RealOf(value, 2)};
 }
 
 // Returns 12 for "Face.12".
@@ -117,11 +116,8 @@ void DeclareExpressions(FsmCore& core) {
                "disgusted, +z angry, -z feared; 1 from the middle is full strength. What was set "
                "last counts, this or FaceExp.",
        .on_set = core.Command([&core](const vm::SetValue& value) -> vm::Result<void> {
-         const auto number = [&value](std::size_t i) {
-           return static_cast<float>(value.number(i));
-         };
          core.motion->expression.ShowSpacePoint(
-             core.Now(), {number(0), number(1), number(2)},
+             core.Now(), {RealOf(value, 0), RealOf(value, 1), RealOf(value, 2)},
              value.size() > 3 ? std::optional(FromMs(value.number(3))) : std::nullopt);
          return {};
        })});
@@ -198,10 +194,8 @@ void DeclareEyes(FsmCore& core) {
                  " by x y degrees (x+ = down, y+ = to the viewer's right) for so many ms; "
                  "0 = until the next.",
          .on_set = core.Command([&core, sides](const vm::SetValue& value) {
-           core.motion->eyes.Rotate(
-               core.Now(), sides,
-               {static_cast<float>(value.number(0)), static_cast<float>(value.number(1))},
-               FromMs(value.number(2)));
+           core.motion->eyes.Rotate(core.Now(), sides, {RealOf(value, 0), RealOf(value, 1)},
+                                    FromMs(value.number(2)));
          })});
   };
   eyes("EyeRot", {.right = true, .left = true}, "both eyes");
@@ -234,9 +228,7 @@ void DeclareFigureSlots(FsmCore& core) {
             figure.enabled = value.word(0) == "ENABLE";
           });
   declare("AgentAlpha", "<number 0..1>", "Opacity of the agent, 0 = not to be seen.", "1.0",
-          [](Figure& figure, const vm::SetValue& value) {
-            figure.alpha = static_cast<float>(value.number(0));
-          });
+          [](Figure& figure, const vm::SetValue& value) { figure.alpha = RealOf(value, 0); });
   declare("AgentRot", "<number -360..360> <number -360..360> <number -360..360>",
           "Turns the whole figure: x y z in degrees, x+ = down, y+ = right, z+ = tilt to the "
           "viewer's right (with -C to his left, as in the original).",
@@ -247,13 +239,10 @@ void DeclareFigureSlots(FsmCore& core) {
           "Moves the whole figure: x to the right and y up, in mm at the face; with -C in halves "
           "of the view's longer side, as in the original.",
           "0 0", [](Figure& figure, const vm::SetValue& value) {
-            figure.translation = {static_cast<float>(value.number(0)),
-                                  static_cast<float>(value.number(1))};
+            figure.translation = {RealOf(value, 0), RealOf(value, 1)};
           });
   declare("AgentScale", "<number 0.01..100>", "Size of the whole figure, 1.0 = normal.", "1.0",
-          [](Figure& figure, const vm::SetValue& value) {
-            figure.scale = static_cast<float>(value.number(0));
-          });
+          [](Figure& figure, const vm::SetValue& value) { figure.scale = RealOf(value, 0); });
 }
 
 }  // namespace fsm

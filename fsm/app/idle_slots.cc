@@ -1,5 +1,6 @@
 #include "fsm/app/idle_slots.h"
 
+#include "fsm/app/slot_words.h"
 #include "fsm/motion/inputs/idle_kinds.h"
 
 namespace fsm {
@@ -37,9 +38,8 @@ void DeclareGaze(FsmCore& core) {
          } else if (value.word(0) == "THINK") {
            core.motion->eyes.Think(now);
          } else {
-           core.motion->eyes.Gaze(
-               now, {static_cast<float>(value.number(0)), static_cast<float>(value.number(1))},
-               FromMs(value.size() > 2 ? value.number(2) : 0));
+           core.motion->eyes.Gaze(now, {RealOf(value, 0), RealOf(value, 1)},
+                                  FromMs(value.size() > 2 ? value.number(2) : 0));
          }
        })});
   core.slots.Declare(

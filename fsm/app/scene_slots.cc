@@ -53,7 +53,7 @@ void DeclareCamera(FsmCore& core) {
          float* const fields[] = {&camera.distance, &camera.height_mm, &camera.field_degrees,
                                   &camera.angle_degrees};
          for (std::size_t i = 0; i < value.size(); ++i) {
-           *fields[i] = static_cast<float>(value.number(i));
+           *fields[i] = RealOf(value, i);
          }
          core.scene.camera = camera;
        })});
@@ -70,10 +70,10 @@ void DeclareLight(FsmCore& core, const std::string& name, const std::string& wha
                "degrees up; left out = as usual), and its colour, #rrggbb (left out = as usual).",
        .on_set = core.Command([&core, lamp](const vm::SetValue& value) -> vm::Result<void> {
          DirectionalLight set;
-         set.strength = static_cast<float>(value.number(0));
+         set.strength = RealOf(value, 0);
          if (value.size() >= 3) {
-           const float side = glm::radians(static_cast<float>(value.number(1)));
-           const float up = glm::radians(static_cast<float>(value.number(2)));
+           const float side = glm::radians(RealOf(value, 1));
+           const float up = glm::radians(RealOf(value, 2));
            set.direction = glm::vec3(std::sin(side) * std::cos(up), std::sin(up),
                                      std::cos(side) * std::cos(up));
          }

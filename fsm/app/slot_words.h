@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "vm_protocol/core/slot_machine.h"
 
 namespace fsm {
 
@@ -31,6 +34,11 @@ auto ValueOf(const auto& words, std::string_view word)
   const auto found = std::ranges::find(words, word, [](const auto& each) { return each.first; });
   if (found == std::end(words)) return std::nullopt;
   return found->second;
+}
+
+/// Returns a number of a slot's value as the state of the face and the scene have it.
+inline float RealOf(const vm::SetValue& value, std::size_t index) {
+  return static_cast<float>(value.number(index));
 }
 
 /// Parses "#rrggbb" to sRGB, 0..1; nothing for other texts.
