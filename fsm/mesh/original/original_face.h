@@ -1,3 +1,5 @@
+// Faces of the original, the face module of the first Galatea toolkit (docs/architecture.md).
+
 #pragma once
 
 #include <array>
