@@ -27,15 +27,15 @@ void CheckSurface(const HeadSurface& surface, const VertexChecker& checker) {
   }
   checker.PerVertex(surface.albedo.size(), "surface.albedo");
   checker.PerVertex(surface.openness.size(), "surface.openness");
-  checker.PerVertex(surface.opacity.size(), "surface.opacity", true);
-  checker.PerVertex(surface.uv.size(), "surface.uv", true);
-  checker.PerVertex(surface.strands.size(), "surface.strands", true);
-  checker.PerVertex(surface.textures.texcoord.size(), "surface.texcoord",
-                    !surface.textures.base_colour);
-  checker.PerVertex(surface.textures.weight.size(), "surface.texture_weight",
-                    !surface.textures.base_colour);
+  checker.EmptyOrPerVertex(surface.opacity.size(), "surface.opacity");
+  checker.EmptyOrPerVertex(surface.uv.size(), "surface.uv");
+  checker.EmptyOrPerVertex(surface.strands.size(), "surface.strands");
+  const auto check =
+      surface.textures.base_colour ? &VertexChecker::PerVertex : &VertexChecker::EmptyOrPerVertex;
+  (checker.*check)(surface.textures.texcoord.size(), "surface.texcoord");
+  (checker.*check)(surface.textures.weight.size(), "surface.texture_weight");
   checker.VerticesOf(surface.portrait.shut_lids, "surface.shut_lids");
-  checker.PerVertex(surface.portrait.relit.size(), "surface.relit", true);
+  checker.EmptyOrPerVertex(surface.portrait.relit.size(), "surface.relit");
 }
 
 }  // namespace

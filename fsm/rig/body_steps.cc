@@ -161,7 +161,7 @@ void ApplyNormals(const RigData& data, const MovedVertices& moved, StepWork& wor
 }
 
 void CheckNormals(const RigData& data, const VertexChecker& checker) {
-  checker.PerVertex(data.normals.twin.size(), "rig.normal_twin", true);
+  checker.EmptyOrPerVertex(data.normals.twin.size(), "rig.normal_twin");
   checker.Vertices(data.normals.twin, "rig.normal_twin");
   checker.Triangles(data.normals.soft_triangles, "rig.soft_triangles");
 }

@@ -222,7 +222,7 @@ void ApplyOwnForm(const RigData& data, const MovedVertices&, StepWork& work) {
 }
 
 void CheckOwnForm(const RigData& data, const VertexChecker& checker) {
-  checker.PerVertex(data.proxy.rest.size(), "rig.proxy_rest", true);
+  checker.EmptyOrPerVertex(data.proxy.rest.size(), "rig.proxy_rest");
   if (data.proxy.to_own.size() != data.proxy.rest.size())
     checker.Refuse("rig.proxy_to_own: not one for each of rig.proxy_rest");
 }

@@ -24,8 +24,8 @@ void VertexChecker::Vertex(std::size_t vertex, const std::string& place) const {
   Refuse(fmt::format("{}: vertex {} of {}", place, vertex, vertices_));
 }
 
-void VertexChecker::PerVertex(std::size_t size, const char* member, bool may_be_empty) const {
-  if (size == vertices_ || (may_be_empty && size == 0)) return;
+void VertexChecker::PerVertex(std::size_t size, const char* member) const {
+  if (size == vertices_) return;
   Refuse(fmt::format("{}: {} elements for {} vertices", member, size, vertices_));
 }
 

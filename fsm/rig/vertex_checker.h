@@ -18,7 +18,10 @@ class VertexChecker {
 
   std::size_t vertices() const { return vertices_; }
   void Vertex(std::size_t vertex, const std::string& place) const;
-  void PerVertex(std::size_t size, const char* member, bool may_be_empty = false) const;
+  void PerVertex(std::size_t size, const char* member) const;
+  void EmptyOrPerVertex(std::size_t size, const char* member) const {
+    if (size != 0) PerVertex(size, member);
+  }
   /// Checks that every element of a list is a vertex.
   void Vertices(const auto& list, const char* member) const {
     for (std::size_t i = 0; i < list.size(); ++i) Vertex(list[i], Element(member, i));
