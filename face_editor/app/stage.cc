@@ -127,13 +127,13 @@ void Stage::Draw(const fsm::Viewport& pane, const fsm::FaceState& state) {
 std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::FittedHead& fitted) {
   const facefit::ObservedHead& base = *fitted.base;
   std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(fitted.pose.ToCamera(p));
+  for (const glm::vec3& p : fitted.vertices) camera.push_back(fitted.pose.ToCamera(p));
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   facefit::ForEachSkinTriangle(base.surface(), [&](const facefit::MeshTriangle& t) {
     const glm::vec3 n = t.Normal(camera);
     // The neck is not fitted, what lies behind is not seen.
     const bool face = std::ranges::all_of(t.corner, [&](std::uint32_t v) {
-      return fitted.posed_vertices[v].z > 10 && base.rest().position[v].y > -95;
+      return fitted.vertices[v].z > 10 && base.rest().position[v].y > -95;
     });
     if (!face || n.z <= 0.1F * glm::length(n)) return;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -41,10 +41,10 @@ VectorImage SpreadMotion(const VectorImage& motion, const Mask& covered, int rea
 /// Returns for each vertex of the base head its motion from the photo's expression to rest.
 std::vector<glm::vec3> MotionToRest(const FittedHead& fitted) {
   const std::vector<glm::vec3> rest = SkinWith(fitted, {});
-  std::vector<glm::vec3> motion(fitted.posed_vertices.size(), glm::vec3(0));
+  std::vector<glm::vec3> motion(fitted.vertices.size(), glm::vec3(0));
   assert(rest.size() <= motion.size());
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    motion[i] = rest[i] - fitted.posed_vertices[i];
+    motion[i] = rest[i] - fitted.vertices[i];
   }
   return motion;
 }

@@ -140,7 +140,7 @@ TexelProjections ProjectTexels(const FittedHead& fitted, const SkinTexels& texel
                                const CameraPose& pose) {
   constexpr glm::vec3 kCameraPosition(0, 0, kCameraDepthMm);
   std::vector<glm::vec3> in_camera;
-  for (const glm::vec3& p : fitted.posed_vertices) in_camera.push_back(pose.ToCamera(p));
+  for (const glm::vec3& p : fitted.vertices) in_camera.push_back(pose.ToCamera(p));
   const std::vector<glm::vec3> normal = SkinNormals(fitted.base->surface(), in_camera);
   TexelProjections out(texels.width, texels.height);
   for (std::size_t i = 0; i < texels.size(); ++i) {
@@ -156,7 +156,7 @@ void HideSelfOccluded(const FittedHead& fitted, const SkinTexels& texels, const 
                       TexelProjections& projections) {
   const SelfOcclusion hides(fitted, pose);
   std::vector<glm::vec3> in_camera;
-  for (const glm::vec3& p : fitted.posed_vertices) in_camera.push_back(pose.ToCamera(p));
+  for (const glm::vec3& p : fitted.vertices) in_camera.push_back(pose.ToCamera(p));
   for (std::size_t i = 0; i < texels.size(); ++i) {
     if (texels[i] && hides(texels[i]->on_mesh.On(in_camera))) projections[i].facing = -1;
   }

@@ -24,7 +24,7 @@ namespace {
 float CrownRow(const FittedHead& fitted) {
   float highest = std::numeric_limits<float>::infinity();
   ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
-    highest = std::min(highest, fitted.pose.PixelOf(fitted.posed_vertices[triangle.corner[0]]).y);
+    highest = std::min(highest, fitted.pose.PixelOf(fitted.vertices[triangle.corner[0]]).y);
   });
   return highest - PhotoLook().hair.on_crown_mm * fitted.pose.PixelsPerMm();
 }

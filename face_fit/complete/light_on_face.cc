@@ -10,7 +10,7 @@
 namespace facefit {
 
 fsm::FaceLight LightOnFace(const FittedHead& fitted, const FigureCutout& figure) {
-  const auto& position = fitted.posed_vertices;
+  const auto& position = fitted.vertices;
   std::vector<std::uint32_t> corners;
   ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
     corners.insert(corners.end(), triangle.corner.begin(), triangle.corner.end());

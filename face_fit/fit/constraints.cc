@@ -25,11 +25,11 @@ PerPoint<float> DepthBias(const ObservedHead& base) {
 }
 
 /// Returns constraints to where the network sees the points of the face, inner lips left out.
-/// `posed`: the base head's vertices in the photo's expression.
+/// `base_in_expression`: as FittedHead's.
 std::vector<PixelConstraint> PointConstraints(const FitProblem& problem, const CameraPose& pose,
-                                              std::span<const glm::vec3> posed) {
+                                              std::span<const glm::vec3> base_in_expression) {
   constexpr float kTrustDepth = 0.3F, kMaxDepthGapMm = 15;
-  const std::vector<float> gaps_mm = NetworkDepthErrorsMm(problem, pose, posed);
+  const std::vector<float> gaps_mm = NetworkDepthErrorsMm(problem, pose, base_in_expression);
   std::vector<PixelConstraint> constraints;
   for (std::size_t i = 0; i < gaps_mm.size(); ++i) {
     const PointIndex k = point::kReliable[i];
@@ -37,7 +37,7 @@ std::vector<PixelConstraint> PointConstraints(const FitProblem& problem, const C
     const MeshPoint& on_head = problem.base.mesh_points()[k];
     const float gap_mm = std::clamp(gaps_mm[i], -kMaxDepthGapMm, kMaxDepthGapMm);
     constraints.push_back({k, on_head, problem.face.PixelOf(k),
-                           pose.ToCamera(on_head.On(posed)).z + kTrustDepth * gap_mm});
+                           pose.ToCamera(on_head.On(base_in_expression)).z + kTrustDepth * gap_mm});
   }
   return constraints;
 }
@@ -103,14 +103,14 @@ void ShiftOuterLips(const FitProblem& problem, const MouthAxis& mouth, const Pho
   }
 }
 
-/// Constrains closed lips to the lip seam. `posed`: as for PointConstraints.
+/// Constrains closed lips to the lip seam. `base_in_expression`: as FittedHead's.
 void ConstrainToLipSeam(const FitProblem& problem, const CameraPose& pose,
-                        std::span<const glm::vec3> posed, const MouthAxis& mouth,
+                        std::span<const glm::vec3> base_in_expression, const MouthAxis& mouth,
                         const PhotoLipSeam& seam, std::vector<PixelConstraint>& constraints) {
   const ObservedHead& base = problem.base;
   const auto constrain = [&](const MeshPoint& p) {
     constraints.push_back(
-        {std::nullopt, p, seam.PixelAt(mouth.Along(p)), pose.ToCamera(p.On(posed)).z});
+        {std::nullopt, p, seam.PixelAt(mouth.Along(p)), pose.ToCamera(p.On(base_in_expression)).z});
   };
   for (const PointIndex i : point::kUpperInnerLip) constrain(base.mesh_points()[i]);
   for (const char* corner : {"cheilion_right", "cheilion_left"}) {
@@ -128,12 +128,12 @@ FitProblem::FitProblem(const ObservedHead& base_head, const FoundFace& found_fac
       lips_apart(LipsApart(found_face)) {}
 
 std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraPose& pose,
-                                        std::span<const glm::vec3> posed) {
+                                        std::span<const glm::vec3> base_in_expression) {
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<float> gaps;
   float mean = 0;
   for (const PointIndex k : point::kReliable) {
-    const float base_z = pose.ToCamera(problem.base.mesh_points()[k].On(posed)).z;
+    const float base_z = pose.ToCamera(problem.base.mesh_points()[k].On(base_in_expression)).z;
     gaps.push_back(problem.face.points[k].z * mm_per_pixel + problem.depth_bias[k] - base_z);
     mean += gaps.back() / static_cast<float>(std::size(point::kReliable));
   }
@@ -142,9 +142,9 @@ std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraP
 }
 
 std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const CameraPose& pose,
-                                             std::span<const glm::vec3> posed,
+                                             std::span<const glm::vec3> base_in_expression,
                                              const PhotoIrises& irises, const fsm::Image& photo) {
-  auto constraints = PointConstraints(problem, pose, posed);
+  auto constraints = PointConstraints(problem, pose, base_in_expression);
   ShiftLidsToIrises(irises, constraints);
   if (problem.lips_apart) return constraints;
   const MouthAxis mouth(problem.base);
@@ -153,7 +153,7 @@ std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const Ca
       photo, problem.face,
       {mouth.Along(on_head[point::kMouthRight]), mouth.Along(on_head[point::kMouthLeft])});
   ShiftOuterLips(problem, mouth, seam, constraints);
-  ConstrainToLipSeam(problem, pose, posed, mouth, seam, constraints);
+  ConstrainToLipSeam(problem, pose, base_in_expression, mouth, seam, constraints);
   return constraints;
 }
 

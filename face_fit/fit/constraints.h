@@ -35,18 +35,17 @@ struct FitProblem {
 };
 
 /// Returns for each of point::kReliable how much nearer to the camera the network sees it than the
-/// posed head has it, mean 0, millimetres. `posed`: the base head's vertices in the photo's
-/// expression.
+/// base head has it, mean 0, millimetres. `base_in_expression`: as FittedHead's.
 std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraPose& pose,
-                                        std::span<const glm::vec3> posed);
+                                        std::span<const glm::vec3> base_in_expression);
 
 /// Returns the constraints of the warp for a pose: the network's points, whose
 /// depth is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down
 /// with them. Closed lips meet where the photo shows the lip seam; for the inner lips of
 /// an open mouth there are none, because at rest both are one line, which cannot be moved to two
-/// separate ones. `posed`: as for NetworkDepthErrorsMm.
+/// separate ones. `base_in_expression`: as FittedHead's.
 std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const CameraPose& pose,
-                                             std::span<const glm::vec3> posed,
+                                             std::span<const glm::vec3> base_in_expression,
                                              const PhotoIrises& irises, const fsm::Image& photo);
 
 }  // namespace facefit

@@ -62,7 +62,7 @@ fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
   for (const fsm::Side side : fsm::kSides) {
     const auto raised = [&](std::size_t k) {
       const MeshPoint& lid = base.mesh_points()[point::kEyeOutline[side][k]];
-      return lid.On(fitted.base_posed).y - lid.On(base.rest().position).y;
+      return lid.On(fitted.base_in_expression).y - lid.On(base.rest().position).y;
     };
     transforms[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);
     transforms[side].lower_mm += kept * std::max(raised(kLowerMiddle), 0.0F);

@@ -28,18 +28,19 @@ Expression ExpressionFrom(const Parameters& p) {
 
 std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& parameters) {
   const CameraPose pose = PoseFromParameters(parameters);
-  const std::vector<glm::vec3> posed = problem.base.Posed(ExpressionFrom(parameters).State());
+  const std::vector<glm::vec3> base_in_expression =
+      problem.base.InState(ExpressionFrom(parameters).State());
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<double> out;
   for (const PointIndex k : point::kReliable) {
-    const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(posed));
+    const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(base_in_expression));
     const glm::vec2 offset = (pose.Project(q) - problem.face.PixelOf(k)) * mm_per_pixel;
     out.push_back(static_cast<double>(offset.x));
     out.push_back(static_cast<double>(offset.y));
   }
   // The network's depth is less reliable than its x and y.
   constexpr double kDepthWeight = 0.4;
-  for (const float gap_mm : NetworkDepthErrorsMm(problem, pose, posed)) {
+  for (const float gap_mm : NetworkDepthErrorsMm(problem, pose, base_in_expression)) {
     out.push_back(kDepthWeight * static_cast<double>(gap_mm));
   }
   // Priors, as the residual in millimetres of a unit at full strength: people mostly hold still for
@@ -92,9 +93,10 @@ FaceFit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Imag
   Expression expression = ExpressionFrom(settled);
   expression.smile = SmileBeyondRest(expression.smile, problem.lips_apart);
   const PhotoIrises irises = FindPhotoIrises(base, face, photo);
-  std::vector<glm::vec3> posed = base.Posed(expression.State());
-  auto constraints = MakeConstraints(problem, pose, posed, irises, photo);
-  FittedHead head = WarpToPixels(base, pose, expression, std::move(posed), constraints);
+  std::vector<glm::vec3> base_in_expression = base.InState(expression.State());
+  auto constraints = MakeConstraints(problem, pose, base_in_expression, irises, photo);
+  FittedHead head =
+      WarpToPixels(base, pose, expression, std::move(base_in_expression), constraints);
   return {std::move(head), std::move(constraints), irises};
 }
 
@@ -111,7 +113,7 @@ FaceFit WithDepthShifted(FaceFit fit,
                          const std::function<float(const PixelConstraint&)>& nearer_mm) {
   for (PixelConstraint& constraint : fit.constraints) constraint.z_mm += nearer_mm(constraint);
   FittedHead& head = fit.head;
-  head = WarpToPixels(*head.base, head.pose, head.expression, std::move(head.base_posed),
+  head = WarpToPixels(*head.base, head.pose, head.expression, std::move(head.base_in_expression),
                       fit.constraints);
   return fit;
 }

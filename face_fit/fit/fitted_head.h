@@ -41,11 +41,11 @@ struct FittedHead {
   std::vector<fsm::WarpPoint> warp_points;
   fsm::Sided<fsm::EyeTransform> eyes;
   /// Every vertex of the base head in the photo's expression, head's frame.
-  std::vector<glm::vec3> base_posed;
-  /// The same in the person's form.
-  std::vector<glm::vec3> posed_vertices;
+  std::vector<glm::vec3> base_in_expression;
+  /// Every vertex in the person's form, in the photo's expression, head's frame.
+  std::vector<glm::vec3> vertices;
   /// Returns the position of a point of the network in the photo's expression, head's frame.
-  glm::vec3 PositionOf(PointIndex i) const { return base->mesh_points()[i].On(posed_vertices); }
+  glm::vec3 PositionOf(PointIndex i) const { return base->mesh_points()[i].On(vertices); }
 };
 
 }  // namespace facefit

@@ -26,14 +26,11 @@ std::optional<fsm::Side> EyeOf(const PixelConstraint& c) {
   return std::nullopt;
 }
 
-/// Returns the posed vertices with the base head's skin replaced by the fitted head's in the
-/// photo's expression.
-std::vector<glm::vec3> PosedSkin(const FittedHead& fitted) {
+/// Replaces the skin among the vertices by that which fsm will show in the photo's expression.
+void UpdateSkin(FittedHead& fitted) {
   const auto skin = SkinWith(fitted, fitted.expression.State());
-  std::vector<glm::vec3> posed = fitted.posed_vertices;
-  assert(skin.size() <= posed.size());
-  std::ranges::copy(skin, posed.begin());
-  return posed;
+  assert(skin.size() <= fitted.vertices.size());
+  std::ranges::copy(skin, fitted.vertices.begin());
 }
 
 /// Returns where the photo shows the point of a constraint, head's frame.
@@ -50,12 +47,12 @@ struct WarpPoints {
   std::vector<fsm::WarpPoint> points;
   std::vector<Correctable> correctable;
 };
-/// Returns the points of the warp that the constraints ask for; `posed`: the base head's
-/// vertices in the photo's expression.
+/// Returns the points of the warp that the constraints ask for. `base_in_expression`: as
+/// FittedHead's.
 WarpPoints MakeWarpPoints(const ObservedHead& base, const CameraPose& pose,
                           std::span<const PixelConstraint> constraints,
                           const fsm::Sided<fsm::EyeTransform>& eyes,
-                          const std::vector<glm::vec3>& posed) {
+                          const std::vector<glm::vec3>& base_in_expression) {
   WarpPoints made;
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const PixelConstraint& constraint = constraints[i];
@@ -66,22 +63,23 @@ WarpPoints MakeWarpPoints(const ObservedHead& base, const CameraPose& pose,
       made.points.push_back({rest, eyes[*side].PointInFace(centre, rest) - rest});
     } else {
       made.correctable.push_back({made.points.size(), i});
-      made.points.push_back({rest, TargetOf(pose, constraint) - constraint.on_head.On(posed)});
+      made.points.push_back(
+          {rest, TargetOf(pose, constraint) - constraint.on_head.On(base_in_expression)});
     }
   }
   return made;
 }
 
-/// Returns the eyes that the constraints show; `posed`: as for MakeWarpPoints.
+/// Returns the eyes that the constraints show; `base_in_expression`: as FittedHead's.
 fsm::Sided<fsm::EyeTransform> FitEyesTo(const ObservedHead& base, const CameraPose& pose,
                                         std::span<const PixelConstraint> constraints,
-                                        const std::vector<glm::vec3>& posed) {
+                                        const std::vector<glm::vec3>& base_in_expression) {
   std::map<PointIndex, glm::vec3> outlines;
   for (const PixelConstraint& constraint : constraints) {
     if (!EyeOf(constraint)) continue;
     outlines[*constraint.point] =
         TargetOf(pose, constraint) -
-        (constraint.on_head.On(posed) - constraint.on_head.On(base.rest().position));
+        (constraint.on_head.On(base_in_expression) - constraint.on_head.On(base.rest().position));
   }
   return FitEyes(base, outlines);
 }
@@ -106,31 +104,31 @@ std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& 
 }
 
 FittedHead WarpToPixels(const ObservedHead& base, const CameraPose& pose,
-                        const Expression& expression, std::vector<glm::vec3> base_posed,
+                        const Expression& expression, std::vector<glm::vec3> base_in_expression,
                         std::span<const PixelConstraint> constraints) {
-  const auto eyes = FitEyesTo(base, pose, constraints, base_posed);
-  WarpPoints made = MakeWarpPoints(base, pose, constraints, eyes, base_posed);
+  const auto eyes = FitEyesTo(base, pose, constraints, base_in_expression);
+  WarpPoints made = MakeWarpPoints(base, pose, constraints, eyes, base_in_expression);
   FittedHead fitted{.base = &base,
                     .pose = pose,
                     .expression = expression,
                     .warp_points = std::move(made.points),
                     .eyes = eyes,
-                    .base_posed = std::move(base_posed),
-                    .posed_vertices = {}};
+                    .base_in_expression = std::move(base_in_expression),
+                    .vertices = {}};
   const fsm::Warp warp(fitted.warp_points, kWarpSmoothMm);
-  for (std::size_t i = 0; i < fitted.base_posed.size(); ++i) {
-    fitted.posed_vertices.push_back(fitted.base_posed[i] + warp.Motion(base.rest().position[i]));
+  for (std::size_t i = 0; i < fitted.base_in_expression.size(); ++i) {
+    fitted.vertices.push_back(fitted.base_in_expression[i] + warp.Motion(base.rest().position[i]));
   }
   // The warped head's own units, lids and lips move points slightly off; a second pass corrects
   // that.
-  fitted.posed_vertices = PosedSkin(fitted);
+  UpdateSkin(fitted);
   for (const auto& [warp_point, of] : made.correctable) {
     const PixelConstraint& constraint = constraints[of];
-    const glm::vec3 q = pose.ToCamera(constraint.on_head.On(fitted.posed_vertices));
+    const glm::vec3 q = pose.ToCamera(constraint.on_head.On(fitted.vertices));
     const glm::vec3 target = pose.PositionOf(constraint.pixel, q.z);
     fitted.warp_points[warp_point].displacement += kCorrectionGain * (target - pose.FromCamera(q));
   }
-  fitted.posed_vertices = PosedSkin(fitted);
+  UpdateSkin(fitted);
   return fitted;
 }
 

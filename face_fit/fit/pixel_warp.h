@@ -18,9 +18,9 @@ std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& 
 
 /// Warps the base head, which outlives the result, so that its points lie where the photo shows
 /// them. Four fifths of what is still off then are corrected, once; outlines of the eyes, which
-/// move with them as wholes, are not corrected. `base_posed`: FittedHead::base_posed.
+/// move with them as wholes, are not corrected. `base_in_expression`: as FittedHead's.
 FittedHead WarpToPixels(const ObservedHead& base, const CameraPose& pose,
-                        const Expression& expression, std::vector<glm::vec3> base_posed,
+                        const Expression& expression, std::vector<glm::vec3> base_in_expression,
                         std::span<const PixelConstraint> constraints);
 
 }  // namespace facefit

@@ -108,9 +108,9 @@ class OutlineDepthGaps {
 /// Returns the fit with its constraints moved forward or back by the gaps, less with distance from
 /// the middle of the face.
 FaceFit WithoutGaps(const OutlineDepthGaps& gaps, FaceFit fit) {
-  const std::vector<glm::vec3> posed = fit.head.posed_vertices;
+  const std::vector<glm::vec3> vertices = fit.head.vertices;
   return WithDepthShifted(std::move(fit), [&](const PixelConstraint& constraint) {
-    const glm::vec3 p = constraint.on_head.On(posed);
+    const glm::vec3 p = constraint.on_head.On(vertices);
     const float weight = std::exp(-p.x * p.x / (kWideMm * kWideMm));
     return weight * std::clamp(gaps.GapAt(p.y), -kMaxCorrectionMm, kMaxCorrectionMm);
   });

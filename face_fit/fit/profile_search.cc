@@ -165,8 +165,8 @@ std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm) 
   std::vector<std::optional<float>> foremost(count);
   ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const glm::vec3 a = fitted.posed_vertices[triangle.corner[c]],
-                      b = fitted.posed_vertices[triangle.corner[(c + 1) % 3]];
+      const glm::vec3 a = fitted.vertices[triangle.corner[c]],
+                      b = fitted.vertices[triangle.corner[(c + 1) % 3]];
       for (const float along : {0.0F, 0.25F, 0.5F, 0.75F}) {
         const glm::vec3 p = glm::mix(a, b, along);
         const float step = (p.y - low) / kLineStepMm;

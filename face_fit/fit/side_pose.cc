@@ -30,7 +30,7 @@ constexpr float kMinSeenFacing = 0.1F, kGuessedWeight = 0.15F;
 /// Turns from which a pose is refined, close enough that one converges to the best.
 constexpr float kStartTurnsDeg[] = {-60, -30, 0, 30, 60};
 
-/// A point of the network, its position on the posed head, head's frame, and the network's error
+/// A point of the network, its position on the fitted head, head's frame, and the network's error
 /// there (millimetres right and down in the image).
 struct ComparedPoint {
   PointIndex index;
@@ -57,14 +57,14 @@ std::vector<PointMatch> MatchesOf(const std::vector<ComparedPoint>& points, cons
   return matches;
 }
 
-/// Measures the network's errors on the posed head drawn in a pose. Returns the points with errors
+/// Measures the network's errors on the fitted head drawn in a pose. Returns the points with errors
 /// and weights, small for those turned away; nothing if the network sees no face.
 std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
                                                        const FittedHead& fitted,
                                                        const CameraPose& pose,
                                                        std::vector<ComparedPoint> points) {
   fsm::HeadVertices turned;
-  for (const glm::vec3& p : fitted.posed_vertices) turned.position.push_back(pose.ToCamera(p));
+  for (const glm::vec3& p : fitted.vertices) turned.position.push_back(pose.ToCamera(p));
   turned.normal =
       fsm::Normals(fitted.base->surface().indices, turned.position, turned.position.size());
   const PortraitView portrait(kDrawnSize);

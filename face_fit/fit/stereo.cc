@@ -35,16 +35,16 @@ Samples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo) {
   const float step = kCellMm * fitted.pose.PixelsPerMm();
   const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMaxSamples);
   const SampleGrid grid{box.low, step, points.x, points.y};
-  const auto& posed = fitted.posed_vertices;
+  const auto& vertices = fitted.vertices;
   const VisibleSurface surface =
-      DrawSkin(fitted.base->surface(), fitted.pose.ToScreen(posed), grid);
+      DrawSkin(fitted.base->surface(), fitted.pose.ToScreen(vertices), grid);
   const glm::vec3 to_front = fitted.pose.TowardsCamera();
   return Samples::From(grid.columns, grid.rows, [&](int x, int y) -> StereoMatcher::Sample {
     const SurfaceSample* sample = surface.SampleAt(x, y);
     if (!sample) return {};
     const MeshPoint on_mesh = sample->OnMesh();
-    const glm::vec3 normal = glm::normalize(sample->triangle.Normal(posed));
-    return {.in_camera = fitted.pose.ToCamera(on_mesh.On(posed)),
+    const glm::vec3 normal = glm::normalize(sample->triangle.Normal(vertices));
+    return {.in_camera = fitted.pose.ToCamera(on_mesh.On(vertices)),
             .rest = on_mesh.On(fitted.base->rest().position),
             .normal = normal,
             .brightness = Brightness(ColourAt(front_photo, grid.Point(x, y))),

@@ -20,7 +20,7 @@ class BuiltInFigureTest : public NetworkTest {
     fitted_.base = &Galatea();
     fitted_.pose.focal_px = 1373;
     fitted_.pose.centre_px = {kPhoto / 2, kPhoto / 2};
-    fitted_.posed_vertices = Galatea().rest().position;
+    fitted_.vertices = Galatea().rest().position;
     for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
       fitted_.warp_points.push_back({at, glm::vec3(0)});
     }

@@ -20,7 +20,7 @@ struct ReportTest : testing::Test {
     Cover(0.5F, 0);
     front.image.rgba.assign(200 * 200 * 4, 128);
     fit.head.base = &base;
-    fit.head.posed_vertices = base.rest().position;
+    fit.head.vertices = base.rest().position;
     for (PhotoIris* iris : {&fit.irises.eyes.right, &fit.irises.eyes.left}) iris->seen = true;
   }
   bool Says(const std::string& what) const {

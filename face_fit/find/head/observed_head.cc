@@ -124,7 +124,7 @@ vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
   return observed;
 }
 
-std::vector<glm::vec3> ObservedHead::Posed(const fsm::FaceState& state) const {
+std::vector<glm::vec3> ObservedHead::InState(const fsm::FaceState& state) const {
   fsm::HeadVertices vertices;
   head_->Evaluate(state, vertices);
   return std::move(vertices.position);

@@ -69,7 +69,7 @@ class ObservedHead {
   const std::optional<fsm::UnitTable>& units() const { return units_; }
 
   /// Returns the vertices in a state, as in an expression; head's frame.
-  std::vector<glm::vec3> Posed(const fsm::FaceState& state) const;
+  std::vector<glm::vec3> InState(const fsm::FaceState& state) const;
   /// Returns the position of a point on the head at rest, millimetres.
   glm::vec3 AtRest(PointIndex i) const { return mesh_points_[i].On(rest_.position); }
   /// Replaces the action units. Points stay, since they were observed at rest.

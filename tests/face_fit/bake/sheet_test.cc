@@ -62,7 +62,7 @@ TEST_F(SheetTest, GoesOnByACellBeyondTheFigureOnAllSides) {
 TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
   const Sheet still = Made();
   // In the photo the whole face is 6 mm higher than at rest.
-  for (glm::vec3& p : fitted_.posed_vertices) p.y += p.z > 0 ? 6.0F : 0.0F;
+  for (glm::vec3& p : fitted_.vertices) p.y += p.z > 0 ? 6.0F : 0.0F;
   const Sheet moved = Made();
   const glm::vec3 cheek = Galatea().mesh_points()[234].On(Galatea().rest().position);
   const auto motion = [&](glm::vec2 near) {

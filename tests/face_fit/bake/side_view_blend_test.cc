@@ -23,7 +23,7 @@ class SideViewBlendTest : public NetworkTest {
     if (IsSkipped()) return;
     fitted_.base = &Galatea();
     fitted_.pose = {.focal_px = 2000, .centre_px = {kSide / 2, kSide / 2}};
-    fitted_.posed_vertices = Galatea().rest().position;
+    fitted_.vertices = Galatea().rest().position;
     view_.pose = fitted_.pose;
     view_.pose.rotation_rad.y = glm::radians(-40.0F);
     photo_.face = FaceIn(view_.pose);

@@ -20,7 +20,7 @@ class SkinSurfaceTest : public testing::Test {
  protected:
   void SetUp() override {
     fitted_.base = &base_;
-    fitted_.posed_vertices = base_.rest().position;
+    fitted_.vertices = base_.rest().position;
     fitted_.pose.focal_px = 1373;
     fitted_.pose.centre_px = {150, 150};
     bottom_ = base_.head().Landmark("gnathion").y - 8;

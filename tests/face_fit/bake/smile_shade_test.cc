@@ -47,7 +47,7 @@ class SmileShadeTest : public NetworkTest {
     fitted.base = &Galatea();
     fitted.pose.focal_px = 1373;
     fitted.pose.centre_px = {kPhoto / 2, kPhoto / 2};
-    fitted.posed_vertices = Galatea().rest().position;
+    fitted.vertices = Galatea().rest().position;
     return fitted;
   }
   glm::vec3 Place(std::size_t point) const {

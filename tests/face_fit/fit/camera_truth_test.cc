@@ -215,7 +215,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     const fsm::Similarity over = fsm::FitSimilarity(pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) error.off[i] = over(pairs[i].to) - pairs[i].from;
     for (const std::size_t side : {0U, 1U}) {
-      error.ears_z[side] = over(fit.head.posed_vertices[BaseEars()[side]]).z - truth().ears[side].z;
+      error.ears_z[side] = over(fit.head.vertices[BaseEars()[side]]).z - truth().ears[side].z;
     }
     // Frames of heads are nobody's truth: what counts is how the fitted face lies over the true
     // one.
