@@ -5,7 +5,7 @@
 
 #include "face_fit/find/face/occlusion_detector.h"
 #include "face_fit/find/figure/matte.h"
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 
 namespace facefit {
 

@@ -14,6 +14,7 @@
 
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/head/head_finder.h"
+#include "face_fit/find/network/face_networks.h"
 #include "face_fit/image/photo.h"
 #include "face_fit/make_face.h"
 #include "face_fit/original_face.h"

@@ -10,6 +10,7 @@
 #include "face_fit/find/face/glasses.h"
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/image/filters.h"
 #include "face_fit/image/photo.h"
 #include "face_fit/report.h"

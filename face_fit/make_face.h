@@ -13,6 +13,8 @@
 
 namespace facefit {
 
+struct FaceNetworks;
+
 /// Is called with the name of each step when it is done.
 using StepDone = std::function<void(const char* step)>;
 

@@ -6,6 +6,7 @@
 
 #include "face_editor/core/table_writer.h"
 #include "face_fit/find/face/hand_points.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/side_view.h"
 #include "face_fit/image/photo.h"
 #include "fsm/faces/face_folder.h"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "face_editor/core/face_points.h"
+#include "face_fit/find/network/face_networks.h"
 #include "face_fit/make_face.h"
 
 namespace editor {

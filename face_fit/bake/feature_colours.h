@@ -2,7 +2,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 #include "face_fit/fit/photo_irises.h"
 
 namespace facefit {

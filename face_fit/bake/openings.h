@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 
 namespace facefit {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "face_fit/find/head/observed_head.h"
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 #include "face_fit/fit/camera_pose.h"
 #include "face_fit/fit/fitted_head.h"
 #include "face_fit/fit/photo_irises.h"

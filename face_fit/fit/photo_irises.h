@@ -4,7 +4,7 @@
 
 #include "face_fit/find/face/iris.h"
 #include "face_fit/find/head/observed_head.h"
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 
 namespace facefit {
 

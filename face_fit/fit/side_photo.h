@@ -3,10 +3,12 @@
 #include <optional>
 #include <string>
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 #include "vm_protocol/core/result.h"
 
 namespace facefit {
+
+struct FaceNetworks;
 
 /// The most photos from the side that are used for one face.
 inline constexpr std::size_t kMaxSidePhotos = 6;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "face_fit/find/head/portrait_view.h"
+#include "face_fit/find/network/face_finder.h"
 #include "fsm/rig/normals.h"
 
 namespace facefit {

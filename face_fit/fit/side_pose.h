@@ -9,6 +9,8 @@
 
 namespace facefit {
 
+struct FaceNetworks;
+
 /// Why a photo from the side gives no pose.
 struct NoSidePose {
   bool may_be_profile;  ///< there is nothing to compare, as in full profile

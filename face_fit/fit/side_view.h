@@ -10,6 +10,8 @@
 
 namespace facefit {
 
+struct FaceNetworks;
+
 /// A photo of the person from the side from which the skin's map takes colours.
 struct SideView {
   const SidePhoto* side_photo = nullptr;  ///< outlives this

@@ -1,5 +1,6 @@
 #include "face_fit/watch/face_watch.h"
 
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/image/plane.h"
 
 namespace facefit {

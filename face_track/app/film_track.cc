@@ -6,6 +6,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "face_fit/find/network/face_networks.h"
 #include "face_track/film/picture_source.h"
 #include "face_track/print/progress.h"
 #include "face_track/print/track_plot.h"

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "face_fit/find/network/face_networks.h"
 #include "face_track/app/film_track.h"
 #include "face_track/live/track_module.h"
 #include "vm_protocol/runtime/module_main.h"

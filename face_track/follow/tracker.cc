@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "face_fit/find/network/face_finder.h"
+
 namespace facetrack {
 namespace {
 
@@ -33,8 +35,8 @@ float LidGap(const Points& points, fsm::Side side) {
 
 }  // namespace
 
-Tracker::Tracker(facefit::FaceNetworks& networks, facefit::Network& attention, const SeenFace& face,
-                 const Settings& settings)
+Tracker::Tracker(facefit::FaceNetworks& networks, facefit::tflite::Network& attention,
+                 const SeenFace& face, const Settings& settings)
     : networks_(networks), attention_(attention), face_(face), settings_(settings) {}
 
 bool Tracker::IsCut(const fsm::Image& picture) {

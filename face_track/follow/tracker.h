@@ -28,8 +28,8 @@ class Tracker {
   static constexpr std::size_t kMostWaiting = 120;
 
   /// All outlive it.
-  Tracker(facefit::FaceNetworks& networks, facefit::Network& attention, const SeenFace& face,
-          const Settings& settings);
+  Tracker(facefit::FaceNetworks& networks, facefit::tflite::Network& attention,
+          const SeenFace& face, const Settings& settings);
 
   /// The lines that are known now: of this picture, of several, or none yet.
   std::vector<FaceLine> Look(const fsm::Image& picture, double ms);
@@ -64,7 +64,7 @@ class Tracker {
   void SmoothLine(FaceLine& line);
 
   facefit::FaceNetworks& networks_;
-  facefit::Network& attention_;
+  facefit::tflite::Network& attention_;
   const SeenFace& face_;
   const Settings settings_;
   std::optional<FrameFit> fit_;  // once a picture's size is known

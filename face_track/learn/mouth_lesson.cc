@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "face_fit/find/network/face_networks.h"
 #include "face_track/follow/tracker.h"
 #include "face_track/learn/head_painter.h"
 #include "face_track/learn/sitter.h"

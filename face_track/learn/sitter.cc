@@ -28,7 +28,7 @@ std::unique_ptr<fsm::Head> SomeHead(std::size_t number) {
 }
 
 Sitter::Sitter(std::unique_ptr<fsm::Head> head, facefit::FaceNetworks& networks,
-               facefit::Network& attention, HeadPainter& painter)
+               facefit::tflite::Network& attention, HeadPainter& painter)
     : attention_(attention),
       painter_(painter),
       base_(vm::OrThrow(ObservedHead::FromBaseMesh(networks, std::move(head), "head"))) {

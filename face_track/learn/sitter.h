@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "face_fit/find/head/observed_head.h"
+#include "face_fit/find/network/face_networks.h"
 #include "face_track/learn/head_painter.h"
 
 namespace facetrack {
@@ -16,7 +17,7 @@ std::unique_ptr<fsm::Head> SomeHead(std::size_t number);
 class Sitter {
  public:
   Sitter(std::unique_ptr<fsm::Head> head, facefit::FaceNetworks& networks,
-         facefit::Network& attention, HeadPainter& painter);
+         facefit::tflite::Network& attention, HeadPainter& painter);
 
   struct Sight {
     Pose pose;  ///< of a head whose eyes are as far apart as in tables
@@ -39,7 +40,7 @@ class Sitter {
  private:
   float DepthOf(std::size_t point, const fsm::HeadVertices& vertices) const;
 
-  facefit::Network& attention_;
+  facefit::tflite::Network& attention_;
   HeadPainter& painter_;
   facefit::ObservedHead base_;
   float scale_ = 1;

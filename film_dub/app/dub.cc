@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_fit/find/network/face_networks.h"
 #include "face_track/film/picture_source.h"
 #include "face_track/print/progress.h"
 #include "film_dub/face/dub_face.h"

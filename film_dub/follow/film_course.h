@@ -37,7 +37,7 @@ struct FilmCourse {
 /// Follows the face through a film. `told` is called after each picture with its time. Errors: the
 /// film's, kBadValue (fewer than two pictures, or no face in any), kLimit.
 vm::Result<FilmCourse> Survey(const std::string& film, facefit::FaceNetworks& networks,
-                              facefit::Network& attention,
+                              facefit::tflite::Network& attention,
                               const facetrack::Tracker::Settings& settings,
                               const std::function<void(std::size_t pictures, double ms)>& told);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/image/filters.h"
 #include "face_fit/image/pixels.h"
 #include "fsm/head/make_head.h"

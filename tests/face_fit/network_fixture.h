@@ -51,7 +51,7 @@ class AttentionNetworkTest : public NetworkTest {
     ASSERT_TRUE(loaded) << loaded.error().text;
     attention_.emplace(std::move(*loaded));
   }
-  std::optional<Network> attention_;
+  std::optional<tflite::Network> attention_;
 };
 
 }  // namespace facefit

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 
 namespace facefit {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 
 namespace facefit {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 #include "fsm/base/side.h"
 #include "vm_protocol/core/result.h"
 

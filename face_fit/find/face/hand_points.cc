@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "face_fit/find/face/coinciding_corners.h"
+#include "face_fit/find/network/face_finder.h"
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/head/warp.h"

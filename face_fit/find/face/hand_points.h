@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "face_fit/find/head/observed_head.h"
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 #include "fsm/mesh/original/pnt_file.h"
 
 namespace facefit {

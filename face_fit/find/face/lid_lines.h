@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 
 namespace facefit {
 

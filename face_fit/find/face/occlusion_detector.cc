@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_fit/find/network/face_networks.h"
 #include "face_fit/image/median.h"
 #include "face_fit/image/raster.h"
 #include "face_fit/image/resample.h"

@@ -7,6 +7,8 @@
 
 namespace facefit {
 
+struct FaceNetworks;
+
 /// Limits of Occlusion::covered: from kMaybeCovered on something may be there, from kSurelyCovered
 /// on something is. kSurelyCovered was tested on 21 other faces: three exceeded it, two of these
 /// had hair before them. Three faces lay between the two limits, and nothing hid any of them;

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 #include "fsm/base/side.h"
 
 namespace facefit {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/image/filters.h"
 
 namespace facefit {

@@ -1,8 +1,10 @@
 #pragma once
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 
 namespace facefit {
+
+struct FaceNetworks;
 
 /// A photo in which people stand upright, and the faces it shows.
 struct UprightPhoto {

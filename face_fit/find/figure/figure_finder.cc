@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/find/face/cut_off.h"
+#include "face_fit/find/network/face_networks.h"
 #include "face_fit/image/filters.h"
 #include "face_fit/image/pixels.h"
 #include "face_fit/image/plane.h"

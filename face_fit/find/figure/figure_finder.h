@@ -1,10 +1,12 @@
 #pragma once
 
 #include "face_fit/find/figure/matte.h"
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 #include "face_fit/image/raster.h"
 
 namespace facefit {
+
+struct FaceNetworks;
 
 /// Cuts out the figures of a photo, as the segmentation network sees them.
 FigureCutout FindFigure(FaceNetworks& networks, const fsm::Image& photo);

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "face_fit/find/network/face_networks.h"
 #include "fsm/mesh/imported_head.h"
 
 namespace facefit {
+
+struct FaceNetworks;
 
 /// Finds eyes, nose and mouth of another maker's head as on a photo: both heads are drawn, the
 /// landmark network looks at both, and its points are projected back onto the meshes. The head may

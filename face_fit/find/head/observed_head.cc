@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "face_fit/find/head/portrait_view.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/image/filters.h"
 #include "face_fit/surface/rasterizer.h"
 #include "face_fit/surface/triangles.h"

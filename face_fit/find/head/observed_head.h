@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "face_fit/find/head/lip_seam.h"
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/found_face.h"
 #include "face_fit/find/network/network_points.h"
 #include "face_fit/surface/mesh_point.h"
 #include "fsm/rig/head.h"
@@ -18,6 +18,8 @@
 #include "vm_protocol/core/result.h"
 
 namespace facefit {
+
+struct FaceNetworks;
 
 /// A head as it was drawn for the landmark network, and where the network saw each point.
 struct NetworkPortrait {

@@ -1,5 +1,6 @@
 #include "face_fit/find/network/attention_points.h"
 
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/tflite/operators.h"
 
 namespace facefit {
@@ -34,7 +35,7 @@ constexpr PointIndex kLeftEye[kAttentionEyePoints] = {
 
 }  // namespace
 
-AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
+AttentiveFace FindAttentivePoints(tflite::Network& attention, const fsm::Image& image,
                                   const NetworkCrop& crop) {
   attention.Run(crop.Sample(image, kLandmarkInputPixels, 0, 1));
   const auto pixel = [&](AttentionOutput output, std::size_t i) {

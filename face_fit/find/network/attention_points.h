@@ -3,7 +3,8 @@
 #include <array>
 #include <glm/vec2.hpp>
 
-#include "face_fit/find/network/face_finder.h"
+#include "face_fit/find/network/face_networks.h"
+#include "face_fit/find/network/found_face.h"
 
 namespace facefit {
 
@@ -17,7 +18,7 @@ struct AttentiveFace {
 };
 
 /// Runs the network once, on `crop`. `attention`: from LoadAttentionLandmarks.
-AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
+AttentiveFace FindAttentivePoints(tflite::Network& attention, const fsm::Image& image,
                                   const NetworkCrop& crop);
 
 }  // namespace facefit

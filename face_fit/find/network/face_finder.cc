@@ -4,8 +4,8 @@
 #include <array>
 #include <functional>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
+#include "face_fit/find/network/face_networks.h"
 #include "face_fit/image/plane.h"
 #include "face_fit/tflite/operators.h"
 #include "fsm/image/shrink.h"
@@ -159,16 +159,6 @@ std::vector<FaceBox> SuppressNonMaxima(std::vector<Detection> found) {
 }
 
 }  // namespace
-
-bool LipsApart(const FoundFace& face) {
-  const auto apart = [&face](PointIndex a, PointIndex b) {
-    return glm::distance(face.PixelOf(a), face.PixelOf(b));
-  };
-  // Distance of the middles of the inner lips, divided by the mouth's width.
-  constexpr float kMinGap = 0.06F;
-  return apart(point::kInnerLipTop, point::kInnerLipBottom) >
-         kMinGap * apart(point::kMouthRight, point::kMouthLeft);
-}
 
 std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image) {
   const glm::vec2 size(image.width, image.height);

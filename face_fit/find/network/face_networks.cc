@@ -44,8 +44,8 @@ struct FaceMeshPackage {
     return FaceMeshPackage{std::move(*loader), std::move(*data)};
   }
   /// Throws if it cannot be used.
-  Network Open(const char* name) const {
-    return Network(tflite::Model::Read(Packed(loader, data, name)));
+  tflite::Network Open(const char* name) const {
+    return tflite::Network(tflite::Model::Read(Packed(loader, data, name)));
   }
 };
 
@@ -63,7 +63,8 @@ std::unexpected<vm::Error> FailUnusable(const std::string& where, const std::exc
 
 /// Checks a network's shapes. `side`: of its square input, pixels; `outputs`: count of the numbers
 /// of each output, in the order of the enumerations.
-Network Expect(Network network, std::size_t side, std::initializer_list<std::size_t> outputs) {
+tflite::Network Expect(tflite::Network network, std::size_t side,
+                       std::initializer_list<std::size_t> outputs) {
   bool fits =
       network.input_shape().count() == side * side * 3 && network.outputs() == outputs.size();
   std::size_t i = 0;
@@ -91,14 +92,14 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
                            {kDetectorCells * kBoxNumbers, kDetectorCells}),
         .landmarks = Expect(package->Open("face_landmark.tflite"), kLandmarkInputPixels,
                             {3 * kNetworkPoints, 1}),
-        .segmentation = Expect(Network(tflite::Model::Read(fsm::BytesOf(*figure))),
+        .segmentation = Expect(tflite::Network(tflite::Model::Read(fsm::BytesOf(*figure))),
                                kSegmentationPixels, {kSegmentationPixels * kSegmentationPixels})};
   } catch (const std::exception& error) {
     return FailUnusable(where, error);
   }
 }
 
-vm::Result<Network> LoadAttentionLandmarks(const std::string& folder) {
+vm::Result<tflite::Network> LoadAttentionLandmarks(const std::string& folder) {
   const std::string where = folder.empty() ? NetworksFolder() : folder;
   const auto package = FaceMeshPackage::Read(where);
   if (!package) return FailMissing(where);

@@ -7,8 +7,6 @@
 
 namespace facefit {
 
-using tflite::Network;
-
 /// Sides of the networks' square inputs, pixels: detector, landmarks, segmentation.
 inline constexpr int kDetectorPixels = 128, kLandmarkInputPixels = 192, kSegmentationPixels = 256;
 
@@ -51,9 +49,9 @@ enum AttentionOutput : std::size_t {
 /// The networks of the npm packages @mediapipe/face_mesh and @mediapipe/selfie_segmentation (both
 /// Apache-2.0), read from the unpacked packages.
 struct FaceNetworks {
-  Network detector;      ///< 128 x 128 in -1..1 -> DetectorOutput
-  Network landmarks;     ///< 192 x 192 in 0..1 -> LandmarkOutput
-  Network segmentation;  ///< 256 x 256 in 0..1 -> SegmentationOutput
+  tflite::Network detector;      ///< 128 x 128 in -1..1 -> DetectorOutput
+  tflite::Network landmarks;     ///< 192 x 192 in 0..1 -> LandmarkOutput
+  tflite::Network segmentation;  ///< 256 x 256 in 0..1 -> SegmentationOutput
 
   /// Loads them from `folder`; "" = NetworksFolder(). Errors: kUnavailable (says how to install
   /// them), kBadValue (the files are damaged).
@@ -63,7 +61,7 @@ struct FaceNetworks {
 /// Loads the landmark network with attention of the same package: 192 x 192 in 0..1 ->
 /// AttentionOutput. Slower than the plain one, finer at lips and eyes. Errors: as
 /// FaceNetworks::Load.
-vm::Result<Network> LoadAttentionLandmarks(const std::string& folder);
+vm::Result<tflite::Network> LoadAttentionLandmarks(const std::string& folder);
 
 /// Returns $GALATEA_NETWORKS, else $XDG_CACHE_HOME/galatea/networks, else
 /// ~/.cache/galatea/networks.

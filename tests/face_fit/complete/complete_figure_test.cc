@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "face_fit/find/figure/figure_finder.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/image/filters.h"
 #include "face_fit/image/photo.h"

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "face_fit/find/head/head_finder.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/surface/mesh_point.h"
 #include "face_fit/surface/rasterizer.h"

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/fit/pixel_warp.h"
 #include "face_fit/fit/profile_depth.h"

@@ -17,7 +17,7 @@ namespace facefit {
 namespace {
 
 /// A network with the outputs of that with attention, which sees a face nowhere.
-Network SeesNoFace() {
+tflite::Network SeesNoFace() {
   const tflite::Shape image{{1, kLandmarkInputPixels, kLandmarkInputPixels, 3}};
   tflite::Model model = tflite::OneNode(tflite::op::Logistic{}, image, {}, image);
   model.outputs.clear();
@@ -26,7 +26,7 @@ Network SeesNoFace() {
     std::vector<float> values(static_cast<std::size_t>(count), -5);
     model.tensors.push_back(tflite::Constant({{1, 1, 1, count}}, std::move(values)));
   }
-  return Network(std::move(model));
+  return tflite::Network(std::move(model));
 }
 
 class FaceWatchTest : public AttentionNetworkTest {
@@ -120,7 +120,7 @@ TEST_F(FaceWatchTest, AFaceThatGoesAndComesBackIsFoundAgain) {
 }
 
 TEST_F(FaceWatchTest, AFaceWhosePointsAreUncertainIsNotSeen) {
-  Network blind = SeesNoFace();
+  tflite::Network blind = SeesNoFace();
   FaceWatch watch(*networks_, blind);
   for (int frame = 0; frame < 2; ++frame) {
     EXPECT_FALSE(watch.MeasureNext(Draw({})));

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "face_fit/find/network/face_networks.h"
 #include "face_fit/fit/fit.h"
 #include "tests/face_fit/grey_image.h"
 #include "tests/face_fit/network_fixture.h"

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/image/photo.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"

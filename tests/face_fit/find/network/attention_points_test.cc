@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "face_fit/find/head/portrait_view.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/image/photo.h"
 #include "face_fit/image/resample.h"
 #include "tests/face_fit/network_fixture.h"
