@@ -41,16 +41,15 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
   const PhotoOpenings openings(face, pixels_per_mm);
   SkinMap map;
   for (std::size_t i = 0; i < texels.size(); ++i) {
-    if (!texels[i]) continue;
-    const glm::vec2 p = projections[i].pixel;
+    if (!texels[i] || !projections[i]) continue;
+    const auto& [p, facing] = *projections[i];
     // Near the head's outline a texel shows more of what lies beside the head than of its skin.
     const float least =
         glm::mix(look.texel.face_from_cos, look.texel.side_from_cos, texels[i]->side_weight);
-    if (!IsInside(colours, p) || projections[i].facing < least) continue;
+    if (!IsInside(colours, p) || facing < least) continue;
     const float skin = openings.SkinShare(p);
     map.outside_openings[i] = skin;
-    map.coverage[i] =
-        skin * fsm::SmoothStep(least, least + look.texel.full_coverage_cos, projections[i].facing);
+    map.coverage[i] = skin * fsm::SmoothStep(least, least + look.texel.full_coverage_cos, facing);
     map.grain_lost[i] = filled.SampleAt(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }

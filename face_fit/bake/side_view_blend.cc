@@ -26,13 +26,14 @@ glm::vec3 GainToFront(const SkinTexels& texels, const TexelProjections& front,
                       const SkinMap& map) {
   glm::vec3 front_sum(1), side_sum(1);
   for (std::size_t i = 0; i < side.size(); ++i) {
-    if (map.coverage[i] < kCoveredFront || front[i].facing < kFacingFront ||
-        side[i].facing < kFacingSide || towards * texels[i]->x_mm < kFromMiddleMm ||
-        !IsInside(colours, side[i].pixel)) {
+    if (!texels[i] || !front[i] || !side[i]) continue;
+    if (map.coverage[i] < kCoveredFront || front[i]->facing < kFacingFront ||
+        side[i]->facing < kFacingSide || towards * texels[i]->x_mm < kFromMiddleMm ||
+        !IsInside(colours, side[i]->pixel)) {
       continue;
     }
     front_sum += Rgb(map.image, i);
-    side_sum += ColourAt(colours, side[i].pixel);
+    side_sum += ColourAt(colours, side[i]->pixel);
   }
   return LightGain(front_sum, side_sum);
 }
@@ -51,14 +52,14 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
   const glm::vec3 gain = GainToFront(texels, front, side, towards, colours, map);
   const auto& look = PhotoLook().side_photo;
   for (std::size_t i = 0; i < side.size(); ++i) {
+    if (!texels[i] || !side[i] || map.outside_openings[i] < 1) continue;
     // At a grazing angle a texel would be sampled from a line of pixels.
-    const glm::vec2 pixel = side[i].pixel;
-    if (side[i].facing < look.facing_cos.from || !IsInside(colours, pixel)) continue;
-    if (map.outside_openings[i] < 1) continue;
+    const auto& [pixel, facing] = *side[i];
+    if (facing < look.facing_cos.from || !IsInside(colours, pixel)) continue;
     float& coverage = map.coverage[i];
-    const float seen = look.facing_cos.Ramp(side[i].facing) *
+    const float seen = look.facing_cos.Ramp(facing) *
                        look.across_mm.Ramp(towards * texels[i]->x_mm) * openings.SkinShare(pixel);
-    const float own = coverage * look.front_facing_cos.Ramp(front[i].facing);
+    const float own = front[i] ? coverage * look.front_facing_cos.Ramp(front[i]->facing) : 0;
     const float sum = own + (1 - own) * seen;
     // Skin that the view hardly shows either stays as in the front photo.
     if (seen <= 0 || sum <= kMinCoverageRatio * coverage) continue;

@@ -147,7 +147,8 @@ TexelProjections ProjectTexels(const FittedHead& fitted, const SkinTexels& texel
     if (!texels[i]) continue;
     const glm::vec3 q = texels[i]->on_mesh.On(in_camera);
     const glm::vec3 n = texels[i]->on_mesh.On(normal) + glm::vec3(0, 0, 1e-9F);
-    out[i] = {pose.Project(q), glm::dot(glm::normalize(n), glm::normalize(kCameraPosition - q))};
+    out[i] = TexelProjection{pose.Project(q),
+                             glm::dot(glm::normalize(n), glm::normalize(kCameraPosition - q))};
   }
   return out;
 }
@@ -158,7 +159,7 @@ void HideSelfOccluded(const FittedHead& fitted, const SkinTexels& texels, const 
   std::vector<glm::vec3> in_camera;
   for (const glm::vec3& p : fitted.vertices) in_camera.push_back(pose.ToCamera(p));
   for (std::size_t i = 0; i < texels.size(); ++i) {
-    if (texels[i] && hides(texels[i]->on_mesh.On(in_camera))) projections[i].facing = -1;
+    if (texels[i] && hides(texels[i]->on_mesh.On(in_camera))) projections[i].reset();
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/vec2.hpp>
+#include <limits>
 #include <optional>
 
 #include "face_fit/fit/fitted_head.h"
@@ -23,7 +24,8 @@ inline int MmToTexels(float mm, int map_width) {
 
 /// A texel of the skin's map: which point of the base head at rest it shows.
 struct SkinTexel {
-  static constexpr float kNotNear = 1e9F;  ///< stands for a distance to something that is not near
+  /// Stands for a distance to something that is not near.
+  static constexpr float kNotNear = std::numeric_limits<float>::infinity();
   MeshPoint on_mesh = {};
   float x_mm = 0;                    ///< from the middle, positive to the person's left
   float y_mm = 0;                    ///< height
@@ -36,19 +38,21 @@ using SkinTexels = Raster<std::optional<SkinTexel>>;
 /// Returns the texels of the base head's skin.
 SkinTexels FindSkinTexels(const ObservedHead& base);
 
-/// What a photo shows of a texel.
+/// Where a photo shows a texel.
 struct TexelProjection {
-  glm::vec2 pixel{0};
-  float facing = -1;  ///< cosine of the normal's angle to the camera; -1 = not seen
+  glm::vec2 pixel;
+  float facing;  ///< cosine of the normal's angle to the camera
+  bool operator==(const TexelProjection&) const = default;
 };
-using TexelProjections = Raster<TexelProjection>;  ///< of the same texels as SkinTexels
+/// Of the same texels as SkinTexels; nothing where there is none, or the head itself hides it.
+using TexelProjections = Raster<std::optional<TexelProjection>>;
 
-/// Returns what a photo taken with `pose` shows of each texel, as if nothing hid it. `texels`: of
+/// Returns where a photo taken with `pose` shows each texel, as if nothing hid it. `texels`: of
 /// the skin of fitted.base.
 TexelProjections ProjectTexels(const FittedHead& fitted, const SkinTexels& texels,
                                const CameraPose& pose);
-/// Marks texels that the head itself hides, as the jaw hides the throat, as not seen.
-/// `projections`: ProjectTexels of the other arguments.
+/// Removes texels that the head itself hides, as the jaw hides the throat. `projections`:
+/// ProjectTexels of the other arguments.
 void HideSelfOccluded(const FittedHead& fitted, const SkinTexels& texels, const CameraPose& pose,
                       TexelProjections& projections);
 

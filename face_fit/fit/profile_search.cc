@@ -36,10 +36,11 @@ constexpr float kMinConcordance = 0.92F;  // of both lines with their linear tre
 constexpr float kOutlierMm = 8;           // distances are clamped to this
 constexpr float kScorePerMm = 0.05F;  // concordance that a millimetre of mean distance outweighs
 
+using OutlineColumns = std::vector<std::optional<float>>;
 /// Returns for each row the figure's outermost column on the right (direction 1) or on the left
-/// (-1); -1 where there is none.
-std::vector<float> OutlineColumns(const Mask& opacity, int direction) {
-  std::vector<float> columns(static_cast<std::size_t>(opacity.height), -1);
+/// (-1); nothing where there is none.
+OutlineColumns OutlineColumnsOf(const Mask& opacity, int direction) {
+  OutlineColumns columns(static_cast<std::size_t>(opacity.height));
   for (int y = 0; y < opacity.height; ++y) {
     for (int k = 0; k < opacity.width; ++k) {
       const int x = direction > 0 ? opacity.width - 1 - k : k;
@@ -73,7 +74,7 @@ float Concordance(std::vector<float> a, std::vector<float> b) {
 /// Returns how well the profile of that size, tilt and row matches the outline, in the column where
 /// the two are nearest; nothing if it does not fit the image or lies too far from the outline.
 std::optional<ProfileMatch> MatchOf(const std::vector<glm::vec3>& line,
-                                    const std::vector<float>& columns, ProfilePlacement placement) {
+                                    const OutlineColumns& columns, ProfilePlacement placement) {
   placement.pixel.x = 0;
   std::vector<float> profile, gaps;
   profile.reserve(line.size());
@@ -81,10 +82,10 @@ std::optional<ProfileMatch> MatchOf(const std::vector<glm::vec3>& line,
   for (const glm::vec3& p : line) {
     const glm::vec2 pixel = placement.PixelOf(p);
     if (pixel.y < 0 || pixel.y >= static_cast<float>(columns.size())) return {};
-    const float column = columns[static_cast<std::size_t>(pixel.y)];
-    if (column < 0) return {};
+    const auto column = columns[static_cast<std::size_t>(pixel.y)];
+    if (!column) return {};
     profile.push_back(pixel.x);
-    gaps.push_back(column - pixel.x);
+    gaps.push_back(*column - pixel.x);
   }
   placement.pixel.x = Median(gaps);
   float gap_mm = 0;
@@ -99,7 +100,7 @@ std::optional<ProfileMatch> MatchOf(const std::vector<glm::vec3>& line,
 }
 
 /// Improves a placement in ever smaller steps of size, height and tilt (pattern search).
-ProfileMatch BestNearby(const std::vector<glm::vec3>& line, const std::vector<float>& columns,
+ProfileMatch BestNearby(const std::vector<glm::vec3>& line, const OutlineColumns& columns,
                         ProfileMatch best) {
   constexpr float kFirstScale = 0.025F, kFirstDegrees = 3;
   for (float step = 1; step > 0.1F; step *= 0.6F) {
@@ -125,8 +126,8 @@ struct FigureRows {
   float Height() const { return bottom - top; }
 };
 /// Returns the first and the last row of a figure.
-FigureRows FigureRowsOf(const std::vector<float>& columns) {
-  const auto covered = [](float column) { return column >= 0; };
+FigureRows FigureRowsOf(const OutlineColumns& columns) {
+  const auto covered = [](const auto& column) { return column.has_value(); };
   const auto top = std::ranges::find_if(columns, covered) - columns.begin();
   const auto below = std::find_if(columns.rbegin(), columns.rend(), covered).base();
   return {static_cast<float>(top), static_cast<float>(below - columns.begin() - 1)};
@@ -134,7 +135,7 @@ FigureRows FigureRowsOf(const std::vector<float>& columns) {
 
 /// Returns the best of all placements on one outline; `direction`: as of ProfilePlacement.
 std::optional<ProfileMatch> SearchOutline(const std::vector<glm::vec3>& line,
-                                          const std::vector<float>& columns, int direction,
+                                          const OutlineColumns& columns, int direction,
                                           const FigureRows& rows) {
   std::optional<ProfileMatch> best;
   for (float pixels_per_mm = rows.Height() / kElbowsMm; pixels_per_mm < rows.Height() / kHeadMm;
@@ -193,7 +194,7 @@ std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const Mask
   const std::vector<glm::vec3> line = ProfileOf(fitted, kThroatMm);
   std::optional<ProfileMatch> best;
   for (const int direction : {1, -1}) {
-    const std::vector<float> columns = OutlineColumns(opacity, direction);
+    const OutlineColumns columns = OutlineColumnsOf(opacity, direction);
     const FigureRows rows = FigureRowsOf(columns);
     if (rows.Height() < kMinHeightPx || line.size() < kMinPoints) return {};
     const auto match = SearchOutline(line, columns, direction, rows);

@@ -26,7 +26,8 @@ constexpr int kMaxSamples = 400;  // to a side
 /// lies on two features of the face.
 constexpr float kMinFacing = 0.25F, kMinFacingSide = 0.2F, kMaxDepthStepInPatchMm = 25;
 
-using Samples = Raster<StereoMatcher::Sample>;
+using Sample = StereoMatcher::Sample;
+using Samples = Raster<std::optional<Sample>>;
 
 /// Samples the fitted skin that the front photo shows.
 Samples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo) {
@@ -39,16 +40,16 @@ Samples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo) {
   const VisibleSurface surface =
       DrawSkin(fitted.base->surface(), fitted.pose.ToScreen(vertices), grid);
   const glm::vec3 to_front = fitted.pose.TowardsCamera();
-  return Samples::From(grid.columns, grid.rows, [&](int x, int y) -> StereoMatcher::Sample {
+  return Samples::From(grid.columns, grid.rows, [&](int x, int y) -> std::optional<Sample> {
     const SurfaceSample* sample = surface.SampleAt(x, y);
-    if (!sample) return {};
+    if (!sample) return std::nullopt;
     const MeshPoint on_mesh = sample->OnMesh();
     const glm::vec3 normal = glm::normalize(sample->triangle.Normal(vertices));
-    return {.in_camera = fitted.pose.ToCamera(on_mesh.On(vertices)),
-            .rest = on_mesh.On(fitted.base->rest().position),
-            .normal = normal,
-            .brightness = Brightness(ColourAt(front_photo, grid.Point(x, y))),
-            .facing = glm::dot(normal, to_front)};
+    return Sample{.in_camera = fitted.pose.ToCamera(on_mesh.On(vertices)),
+                  .rest = on_mesh.On(fitted.base->rest().position),
+                  .normal = normal,
+                  .brightness = Brightness(ColourAt(front_photo, grid.Point(x, y))),
+                  .facing = glm::dot(normal, to_front)};
   });
 }
 
@@ -67,7 +68,7 @@ float Correlation(std::span<const float> a, std::span<const float> b) {
 }
 
 struct Patch {
-  std::size_t middle;
+  Sample middle;
   std::vector<float> brightness;
   std::vector<glm::vec3> in_camera;
 };
@@ -77,17 +78,19 @@ std::vector<Patch> PatchesOf(const Samples& samples, glm::vec3 to_side) {
   std::vector<Patch> patches;
   for (int y = kPatch; y + kPatch < samples.height; y += kPatchStep) {
     for (int x = kPatch; x + kPatch < samples.width; x += kPatchStep) {
-      Patch patch{samples.Index(x, y), {}, {}};
+      const auto& middle = samples(x, y);
+      if (!middle) continue;
+      Patch patch{*middle, {}, {}};
       bool whole = true;
       for (int dy = -kPatch; dy <= kPatch && whole; ++dy) {
         for (int dx = -kPatch; dx <= kPatch && whole; ++dx) {
-          const std::size_t i = samples.Index(x + dx, y + dy);
-          const StereoMatcher::Sample& sample = samples[i];
-          whole = sample.facing > kMinFacing && glm::dot(sample.normal, to_side) > kMinFacingSide &&
-                  std::abs(sample.in_camera.z - samples[patch.middle].in_camera.z) <
-                      kMaxDepthStepInPatchMm;
-          patch.brightness.push_back(sample.brightness);
-          patch.in_camera.push_back(sample.in_camera);
+          const auto& sample = samples(x + dx, y + dy);
+          whole = sample && sample->facing > kMinFacing &&
+                  glm::dot(sample->normal, to_side) > kMinFacingSide &&
+                  std::abs(sample->in_camera.z - middle->in_camera.z) < kMaxDepthStepInPatchMm;
+          if (!whole) break;
+          patch.brightness.push_back(sample->brightness);
+          patch.in_camera.push_back(sample->in_camera);
         }
       }
       if (!whole) continue;
@@ -169,7 +172,7 @@ std::vector<PointMatch> FindPatches(const Samples& samples, const CameraPose& fr
       }
     }
     if (best <= kMinCorrelation) continue;
-    const glm::vec3 q = samples[patch.middle].in_camera;
+    const glm::vec3 q = patch.middle.in_camera;
     matches.push_back({front_pose.FromCamera(q), pixel_of(q) + best_shift_px, 1});
   }
   return matches;
@@ -190,7 +193,7 @@ std::vector<fsm::WarpPoint> FindDepths(const Samples& samples, const CameraPose&
       return correlation - kCorrelationPerMm2 * nearer_mm * nearer_mm;
     });
     if (peak.value < kMinCorrelation || std::abs(peak.step) > kDepthSteps - 1) continue;
-    depths.push_back({samples[patch.middle].rest, glm::vec3(0, 0, kDepthStepMm * peak.step)});
+    depths.push_back({patch.middle.rest, glm::vec3(0, 0, kDepthStepMm * peak.step)});
   }
   return depths;
 }

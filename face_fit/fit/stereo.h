@@ -23,19 +23,18 @@ class StereoMatcher {
   /// than 25 patches are found.
   std::vector<fsm::WarpPoint> MeasureDepth(const CameraPose& side_pose) const;
 
-  /// A point of the fitted skin as the front photo shows it; `facing` is negative where there is
-  /// none.
+  /// A point of the fitted skin as the front photo shows it.
   struct Sample {
-    glm::vec3 in_camera{0}, rest{0};  ///< in the camera's frame; on the base head
-    glm::vec3 normal{0};              ///< head's frame, unit
-    float brightness = 0;
-    float facing = -1;  ///< cosine of the slant to the front photo's camera
+    glm::vec3 in_camera, rest;  ///< in the camera's frame; on the base head
+    glm::vec3 normal;           ///< head's frame, unit
+    float brightness;
+    float facing;  ///< cosine of the slant to the front photo's camera
   };
 
  private:
   CameraPose front_pose_;
   const fsm::Image& side_photo_;
-  Raster<Sample> samples_;
+  Raster<std::optional<Sample>> samples_;
 };
 
 }  // namespace facefit

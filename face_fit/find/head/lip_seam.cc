@@ -15,15 +15,16 @@ constexpr glm::vec2 kMarginMm(15, 3);                // margin of the window bes
 
 /// The rows where a column of the view crosses from the upper to the lower lip.
 struct Crossing {
-  int above = -1, below = -1;  ///< rows
-  float jump_mm = 0;           ///< jump of the distance along the surface
+  int above, below;  ///< rows
+  float jump_mm;     ///< jump of the distance along the surface
 };
 
-/// Returns the crossing of each column of the view. `from_upper`, `from_lower`: distance along the
-/// surface from either lip to each vertex.
-std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::WeldedSurface& surface,
-                                    std::span<const float> from_upper,
-                                    std::span<const float> from_lower) {
+using Crossings = std::vector<std::optional<Crossing>>;
+
+/// Returns the crossing of each column of the view that has one. `from_upper`, `from_lower`:
+/// distance along the surface from either lip to each vertex.
+Crossings FindCrossings(const VisibleSurface& view, const fsm::WeldedSurface& surface,
+                        std::span<const float> from_upper, std::span<const float> from_lower) {
   // Distances at a point of the view if it shows skin, and not teeth or the mouth's lining.
   const auto distances = [&](int column, int row) -> std::optional<glm::vec2> {
     const SurfaceSample* sample = view.SampleAt(column, row);
@@ -37,9 +38,9 @@ std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::Welde
     }
     return sum;
   };
-  std::vector<Crossing> crossings;
+  Crossings crossings;
   for (int column = 0; column < view.grid().columns; ++column) {
-    Crossing crossing;
+    std::optional<Crossing> crossing;
     std::optional<glm::vec2> before;
     int row_before = -1;
     for (int row = view.grid().rows; row-- > 0;) {
@@ -48,7 +49,7 @@ std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::Welde
       if (before && before->x < before->y && here->x >= here->y) {
         const float apart = kFrontStepMm * static_cast<float>(row_before - row);
         const float jump = std::min(here->x - before->x, before->y - here->y) - apart;
-        if (jump > crossing.jump_mm) crossing = {row_before, row, jump};
+        if (jump > (crossing ? crossing->jump_mm : 0)) crossing = {row_before, row, jump};
       }
       before = here;
       row_before = row;
@@ -60,13 +61,14 @@ std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::Welde
 
 /// Returns the first and last column of the mouth, the longest run of columns with a jump (near a
 /// corner the way round is short, and jumps end there); nothing if there is none.
-std::optional<Columns> MouthColumns(const std::vector<Crossing>& crossings) {
+std::optional<Columns> MouthColumns(const Crossings& crossings) {
   constexpr float kMinJumpMm = 2;
   constexpr int kHole = 8;  // columns
   std::optional<Columns> longest;
   int begin = -1, end = -1;
   for (int column = 0; column < static_cast<int>(crossings.size()); ++column) {
-    if (crossings[static_cast<std::size_t>(column)].jump_mm < kMinJumpMm) continue;
+    const auto& crossing = crossings[static_cast<std::size_t>(column)];
+    if (!crossing || crossing->jump_mm < kMinJumpMm) continue;
     if (begin < 0 || column - end > kHole) begin = column;
     end = column;
     if (!longest || end - begin > longest->last - longest->first) longest = {begin, end};
@@ -99,8 +101,8 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& topology,
   for (int column = mouth->first; column <= mouth->last; ++column) {
     // A column without a crossing uses the next one's.
     int next = column;
-    while (crossings[static_cast<std::size_t>(next)].above < 0) ++next;
-    const Crossing& crossing = crossings[static_cast<std::size_t>(next)];
+    while (!crossings[static_cast<std::size_t>(next)]) ++next;
+    const Crossing& crossing = *crossings[static_cast<std::size_t>(next)];
     seam.columns.push_back({view.SampleAt(next, crossing.above)->OnMesh(),
                             view.SampleAt(next, crossing.below)->OnMesh()});
   }

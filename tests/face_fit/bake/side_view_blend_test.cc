@@ -77,8 +77,8 @@ TEST_F(SideViewBlendTest, SkinThatOnlyTheSidePhotoShowsTakesItsColours) {
 TEST_F(SideViewBlendTest, WhatTheSidePhotoShowsBetweenLidsIsNotPaintedOnTheirRims) {
   const PhotoOpenings front_openings(FaceIn(fitted_.pose), fitted_.pose.PixelsPerMm());
   for (std::size_t i = 0; i < front_.values.size(); ++i) {
-    if (front_.values[i].facing < 0.3F) continue;
-    const float skin = front_openings.SkinShare(front_.values[i].pixel);
+    if (!front_[i] || front_[i]->facing < 0.3F) continue;
+    const float skin = front_openings.SkinShare(front_[i]->pixel);
     map_.outside_openings.values[i] = skin;
     map_.coverage.values[i] = skin;
   }
