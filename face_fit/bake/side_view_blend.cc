@@ -47,8 +47,7 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
   const TexelProjections side = ProjectTexels(fitted, texels, view.pose);
   const float towards = view.pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = view.figure.colours;
-  const FoundFace& face = *view.side_photo->face;
-  const PhotoOpenings openings(face, view.pose.PixelsPerMm());
+  const PhotoOpenings openings(view.face, view.pose.PixelsPerMm());
   const glm::vec3 gain = GainToFront(texels, front, side, towards, colours, map);
   const auto& look = PhotoLook().side_photo;
   for (std::size_t i = 0; i < side.size(); ++i) {

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "fsm/base/side.h"
+#include "face_fit/image/photo_side.h"
 
 namespace facefit {
 
@@ -16,14 +15,6 @@ struct Paint {
   glm::vec3 colour{0};
   float opacity = 0;
 };
-
-/// The left and the right edge of a photo, as its viewer sees them.
-enum class PhotoSide { kLeft, kRight };
-inline constexpr std::array kPhotoSides{PhotoSide::kLeft, PhotoSide::kRight};
-
-/// A value for the left and for the right edge of a photo.
-template <typename T>
-using PerSide = fsm::Sided<T, PhotoSide>;
 
 /// How far a pixel of the canvas lies beyond the edges of the photo, pixels; 0 where it is not
 /// beyond that edge. A pixel beyond a corner has two of them above 0.

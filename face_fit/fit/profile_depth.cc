@@ -121,8 +121,7 @@ CameraPose PoseOfProfile(const ProfilePlacement& placement, const std::vector<gl
   std::vector<glm::vec2> pixels;
   for (const glm::vec3& p : line) pixels.push_back(placement.PixelOf(p));
   return PoseWithRotation(
-      line, pixels,
-      {0, glm::radians(90.0F) * static_cast<float>(placement.direction), -placement.tilt_rad});
+      line, pixels, {0, glm::radians(90.0F) * Outward(placement.towards), -placement.tilt_rad});
 }
 
 }  // namespace

@@ -37,13 +37,12 @@ constexpr float kOutlierMm = 8;           // distances are clamped to this
 constexpr float kScorePerMm = 0.05F;  // concordance that a millimetre of mean distance outweighs
 
 using OutlineColumns = std::vector<std::optional<float>>;
-/// Returns for each row the figure's outermost column on the right (direction 1) or on the left
-/// (-1); nothing where there is none.
-OutlineColumns OutlineColumnsOf(const Mask& opacity, int direction) {
+/// Returns for each row the figure's outermost column on a side; nothing where there is none.
+OutlineColumns OutlineColumnsOf(const Mask& opacity, PhotoSide side) {
   OutlineColumns columns(static_cast<std::size_t>(opacity.height));
   for (int y = 0; y < opacity.height; ++y) {
     for (int k = 0; k < opacity.width; ++k) {
-      const int x = direction > 0 ? opacity.width - 1 - k : k;
+      const int x = side == PhotoSide::kRight ? opacity.width - 1 - k : k;
       if (opacity(x, y) < 0.5F) continue;
       columns[static_cast<std::size_t>(y)] = static_cast<float>(x) + 0.5F;
       break;
@@ -133,9 +132,9 @@ FigureRows FigureRowsOf(const OutlineColumns& columns) {
   return {static_cast<float>(top), static_cast<float>(below - columns.begin() - 1)};
 }
 
-/// Returns the best of all placements on one outline; `direction`: as of ProfilePlacement.
+/// Returns the best of all placements on one outline; `towards`: as of ProfilePlacement.
 std::optional<ProfileMatch> SearchOutline(const std::vector<glm::vec3>& line,
-                                          const OutlineColumns& columns, int direction,
+                                          const OutlineColumns& columns, PhotoSide towards,
                                           const FigureRows& rows) {
   std::optional<ProfileMatch> best;
   for (float pixels_per_mm = rows.Height() / kElbowsMm; pixels_per_mm < rows.Height() / kHeadMm;
@@ -144,7 +143,7 @@ std::optional<ProfileMatch> SearchOutline(const std::vector<glm::vec3>& line,
       const float step = std::max(kRowStepMm * pixels_per_mm, 1.0F);
       for (float row = rows.top; row < rows.bottom; row += step) {
         const auto match = MatchOf(line, columns,
-                                   {.direction = direction,
+                                   {.towards = towards,
                                     .pixels_per_mm = pixels_per_mm,
                                     .tilt_rad = glm::radians(degrees),
                                     .pixel = {0, row},
@@ -185,19 +184,18 @@ std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm) 
 }
 
 glm::vec2 ProfilePlacement::PixelOf(glm::vec3 position) const {
-  const glm::vec2 offset(static_cast<float>(direction) * (position.z - middle.z),
-                         middle.y - position.y);
+  const glm::vec2 offset(Outward(towards) * (position.z - middle.z), middle.y - position.y);
   return pixel + pixels_per_mm * Rotated(offset, tilt_rad);
 }
 
 std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const Mask& opacity) {
   const std::vector<glm::vec3> line = ProfileOf(fitted, kThroatMm);
   std::optional<ProfileMatch> best;
-  for (const int direction : {1, -1}) {
-    const OutlineColumns columns = OutlineColumnsOf(opacity, direction);
+  for (const PhotoSide towards : {PhotoSide::kRight, PhotoSide::kLeft}) {
+    const OutlineColumns columns = OutlineColumnsOf(opacity, towards);
     const FigureRows rows = FigureRowsOf(columns);
     if (rows.Height() < kMinHeightPx || line.size() < kMinPoints) return {};
-    const auto match = SearchOutline(line, columns, direction, rows);
+    const auto match = SearchOutline(line, columns, towards, rows);
     if (match && (!best || match->Score() >= best->Score())) best = match;
   }
   // A throat or the back of a head may lie as near to the profile as another person's nose, but its

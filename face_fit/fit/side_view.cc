@@ -12,21 +12,21 @@ namespace facefit {
 
 namespace {
 
-/// Corrects the depth of the fit by a photo of a turned face, and keeps the photo for its colours.
-void UseTurnedPhoto(FaceNetworks& networks, const fsm::Image& front_photo,
-                    const SidePhoto& side_photo, const CameraPose& pose, SidePhotoFit& used) {
+/// Corrects the depth of the fit by a photo of a turned face. Returns what the map takes of it.
+SideView UseTurnedPhoto(FaceNetworks& networks, const fsm::Image& front_photo,
+                        const SidePhoto& side_photo, const CameraPose& pose, FaceFit& fit) {
   auto [corrected, refined] =
-      CorrectDepthByStereo(front_photo, side_photo.image, pose, std::move(used.fit));
-  used.fit = std::move(corrected);
+      CorrectDepthByStereo(front_photo, side_photo.image, pose, std::move(fit));
+  fit = std::move(corrected);
   // Without the face: FindFigureOf trusts what a face from the front shows.
-  used.views.push_back({&side_photo, refined, FindFigure(networks, side_photo.image)});
+  return {side_photo.face.value(), refined, FindFigure(networks, side_photo.image)};
 }
 
 /// Corrects the depth of the fit by the outline of a photo in full profile. Returns whether it
 /// shows the profile.
-bool UseProfilePhoto(FaceNetworks& networks, const SidePhoto& side_photo, SidePhotoFit& used) {
-  auto corrected = CorrectDepthByProfile(FindFigure(networks, side_photo.image).opacity, used.fit);
-  if (corrected) used.fit = std::move(*corrected);
+bool UseProfilePhoto(FaceNetworks& networks, const SidePhoto& side_photo, FaceFit& fit) {
+  auto corrected = CorrectDepthByProfile(FindFigure(networks, side_photo.image).opacity, fit);
+  if (corrected) fit = std::move(*corrected);
   return corrected.has_value();
 }
 
@@ -34,21 +34,25 @@ bool UseProfilePhoto(FaceNetworks& networks, const SidePhoto& side_photo, SidePh
 
 SidePhotoFit UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_photo,
                            std::span<const SidePhoto* const> side_photos, FaceFit fit) {
-  SidePhotoFit used{std::move(fit), {}, {}};
+  SidePhotoFit result{std::move(fit), {}, {}};
+  std::vector<const fsm::Image*> images;  // of the views
   for (const SidePhoto* side_photo : side_photos) {
-    const auto pose = FitSidePose(networks, used.fit.head, *side_photo);
+    const auto pose = FitSidePose(networks, result.fit.head, *side_photo);
     if (pose) {
-      UseTurnedPhoto(networks, front_photo, *side_photo, *pose, used);
-    } else if (!pose.error().may_be_profile || !UseProfilePhoto(networks, *side_photo, used)) {
-      used.rejected.push_back({side_photo->path, pose.error().reason});
+      result.views.push_back(UseTurnedPhoto(networks, front_photo, *side_photo, *pose, result.fit));
+      images.push_back(&side_photo->image);
+    } else if (!pose.error().may_be_profile ||
+               !UseProfilePhoto(networks, *side_photo, result.fit)) {
+      result.rejected.push_back({side_photo->path, pose.error().reason});
     }
   }
   // Later photos changed the depth that the poses of earlier ones were found on.
-  for (auto& [side_photo, pose, figure] : used.views) {
-    const StereoMatcher matcher(used.fit.head, front_photo, side_photo->image);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    CameraPose& pose = result.views[i].pose;
+    const StereoMatcher matcher(result.fit.head, front_photo, *images[i]);
     pose = matcher.RefinePose(pose).value_or(pose);
   }
-  return used;
+  return result;
 }
 
 }  // namespace facefit

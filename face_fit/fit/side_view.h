@@ -14,7 +14,7 @@ struct FaceNetworks;
 
 /// A photo of the person from the side from which the skin's map takes colours.
 struct SideView {
-  const SidePhoto* side_photo = nullptr;  ///< outlives this
+  FoundFace face;
   CameraPose pose;
   FigureCutout figure;
 };
@@ -32,8 +32,8 @@ struct SidePhotoFit {
   std::vector<SideView> views;
   std::vector<RejectedPhoto> rejected;
 };
-/// Corrects the depth of a fit by photos of the person from the side, which outlive the result,
-/// turned or in full profile. `front_photo`: the photo of the fit. Throws std::runtime_error if
+/// Corrects the depth of a fit by photos of the person from the side, turned or in full profile.
+/// `front_photo`: the photo of the fit. Throws std::runtime_error if
 /// rendering is impossible.
 SidePhotoFit UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_photo,
                            std::span<const SidePhoto* const> side_photos, FaceFit fit);

@@ -26,8 +26,7 @@ class SideViewBlendTest : public NetworkTest {
     fitted_.vertices = Galatea().rest().position;
     view_.pose = fitted_.pose;
     view_.pose.rotation_rad.y = glm::radians(-40.0F);
-    photo_.face = FaceIn(view_.pose);
-    view_.side_photo = &photo_;
+    view_.face = FaceIn(view_.pose);
     view_.figure.colours = fsm::FilledImage(kSide, kSide);
     Fill(view_.figure.colours, [](glm::vec2) { return kSkin; });
     texels_ = FindSkinTexels(Galatea());
@@ -60,7 +59,6 @@ class SideViewBlendTest : public NetworkTest {
   }
 
   FittedHead fitted_;
-  SidePhoto photo_;
   SideView view_;
   SkinTexels texels_;
   TexelProjections front_;
@@ -82,7 +80,7 @@ TEST_F(SideViewBlendTest, WhatTheSidePhotoShowsBetweenLidsIsNotPaintedOnTheirRim
     map_.outside_openings.values[i] = skin;
     map_.coverage.values[i] = skin;
   }
-  const PhotoOpenings openings(*photo_.face, view_.pose.PixelsPerMm());
+  const PhotoOpenings openings(view_.face, view_.pose.PixelsPerMm());
   Fill(view_.figure.colours,
        [&](glm::vec2 p) { return openings.SkinShare(p) < 1 ? kWhite : kSkin; });
   BlendSideView(fitted_, view_, texels_, front_, map_);
