@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/complete/complete_figure.h"
-#include "face_fit/fit/side_view.h"
+#include "face_fit/side/side_view.h"
 #include "fsm/head/photo_head.h"
 
 namespace facefit {

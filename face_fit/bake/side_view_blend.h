@@ -2,7 +2,7 @@
 
 #include "face_fit/bake/skin_map.h"
 #include "face_fit/bake/skin_texels.h"
-#include "face_fit/fit/side_view.h"
+#include "face_fit/side/side_view.h"
 
 namespace facefit {
 

@@ -1,10 +1,10 @@
-#include "face_fit/fit/stereo_depth.h"
+#include "face_fit/side/stereo_depth.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "face_fit/fit/stereo.h"
+#include "face_fit/side/stereo.h"
 
 namespace facefit {
 namespace {

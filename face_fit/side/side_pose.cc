@@ -1,4 +1,4 @@
-#include "face_fit/fit/side_pose.h"
+#include "face_fit/side/side_pose.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "face_fit/fit/profile_search.h"
+#include "face_fit/side/profile_search.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
-#include "face_fit/fit/correlation.h"
 #include "face_fit/image/median.h"
 #include "face_fit/image/plane.h"
+#include "face_fit/side/correlation.h"
 #include "face_fit/surface/triangles.h"
 
 namespace facefit {

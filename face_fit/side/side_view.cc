@@ -1,12 +1,12 @@
-#include "face_fit/fit/side_view.h"
+#include "face_fit/side/side_view.h"
 
 #include <utility>
 
 #include "face_fit/find/figure/figure_finder.h"
-#include "face_fit/fit/profile_depth.h"
-#include "face_fit/fit/side_pose.h"
-#include "face_fit/fit/stereo.h"
-#include "face_fit/fit/stereo_depth.h"
+#include "face_fit/side/profile_depth.h"
+#include "face_fit/side/side_pose.h"
+#include "face_fit/side/stereo.h"
+#include "face_fit/side/stereo_depth.h"
 
 namespace facefit {
 

@@ -6,7 +6,7 @@
 
 #include "face_fit/find/figure/matte.h"
 #include "face_fit/fit/fit.h"
-#include "face_fit/fit/side_photo.h"
+#include "face_fit/side/side_photo.h"
 
 namespace facefit {
 

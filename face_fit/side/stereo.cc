@@ -1,15 +1,15 @@
-#include "face_fit/fit/stereo.h"
+#include "face_fit/side/stereo.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "face_fit/fit/correlation.h"
 #include "face_fit/fit/pose_fit.h"
 #include "face_fit/image/pixels.h"
 #include "face_fit/image/plane.h"
 #include "face_fit/image/resample.h"
+#include "face_fit/side/correlation.h"
 #include "face_fit/surface/visible_surface.h"
 
 namespace facefit {

@@ -1,4 +1,4 @@
-#include "face_fit/fit/profile_depth.h"
+#include "face_fit/side/profile_depth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "face_fit/fit/pose_fit.h"
-#include "face_fit/fit/profile_search.h"
+#include "face_fit/side/profile_search.h"
 
 namespace facefit {
 namespace {

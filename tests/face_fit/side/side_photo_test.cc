@@ -1,4 +1,4 @@
-#include "face_fit/fit/side_photo.h"
+#include "face_fit/side/side_photo.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "face_fit/fit/fitted_head.h"
 #include "face_fit/fit/pose_fit.h"
-#include "face_fit/fit/side_photo.h"
+#include "face_fit/side/side_photo.h"
 
 namespace facefit {
 
