@@ -66,6 +66,7 @@ struct FaceSearcher {
 /// Reduces a search to the surroundings of its face, with the pixels of the photo as given. Returns
 /// close-up pixels for each whole pixel. REQUIRES: search.face.
 float CropToFace(fsm::Image given, FaceSearch& search) {
+  assert(search.face);
   if (search.orientation != 1) given = Turned(given, search.orientation);
   CloseUp close_up = CloseUpOf(search.photo, given, *search.face);
   search.photo = std::move(close_up.image);

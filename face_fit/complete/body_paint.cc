@@ -1,6 +1,7 @@
 #include "face_fit/complete/body_paint.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -90,6 +91,7 @@ void BodyPaint::AddDifference(const EdgeSample& edge, glm::vec2 pixel, Differenc
 float BodyPaint::ClothShare(glm::vec2 pixel, const DistanceOutside& outside, float on_bust) const {
   const float reach_px = PhotoLook().beyond_edge.told_within_mm * canvas_.pixels_per_mm;
   const bool below = outside.below > 0;
+  assert(below || outside.side);
   const Differences& differences = below ? below_ : beside_[*outside.side];
   const float along_px = below ? pixel.x : pixel.y;
   const float skin = differences[kSkin].MeanAround(along_px, reach_px).w,
@@ -136,10 +138,11 @@ glm::vec3 BodyPaint::EdgeDifference(glm::vec2 pixel, const DistanceOutside& outs
 }
 
 Paint BodyPaint::PaintAt(glm::vec2 pixel) const {
+  const DistanceOutside outside = canvas_.OutsidePhoto(pixel);
+  assert(outside.Any());
   const BustSample body = shape_.SampleAt(pixel);
   const float opacity = shape_.OpacityAt(pixel, body);
   if (opacity <= 0) return {};
-  const DistanceOutside outside = canvas_.OutsidePhoto(pixel);
   return {glm::mix(BustColour(body, kSkin) + EdgeDifference(pixel, outside, kSkin),
                    BustColour(body, kCloth) + EdgeDifference(pixel, outside, kCloth),
                    ClothShare(pixel, outside, body.cloth)),

@@ -21,6 +21,7 @@ struct Paint {
 struct DistanceOutside {
   float below, above, beside;
   std::optional<PhotoSide> side;  ///< the edge that `beside` counts from, if it is above 0
+  bool Any() const { return below > 0 || above > 0 || side; }
 };
 
 /// A photo on a larger canvas. Where nothing else is said, pixels are the photo's, y down, also

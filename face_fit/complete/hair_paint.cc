@@ -148,7 +148,7 @@ Paint HairPaint::HairBelow(glm::vec2 pixel, float below_px) const {
 
 Paint HairPaint::PaintAt(glm::vec2 pixel) const {
   const DistanceOutside outside = canvas_.OutsidePhoto(pixel);
-  assert(outside.below > 0 || outside.above > 0 || outside.side);
+  assert(outside.Any());
   if (outside.below > 0) {
     Paint hair = HairBelow(pixel, outside.below);
     if (outside.side) {

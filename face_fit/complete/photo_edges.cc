@@ -1,6 +1,7 @@
 #include "face_fit/complete/photo_edges.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -235,6 +236,7 @@ bool PhotoEdges::TopCutsWholeEdge() const {
 PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure,
                        glm::vec3 skin_colour) {
   const glm::ivec2 size(figure.opacity.width, figure.opacity.height);
+  assert(size.x > 0 && size.y > 0);
   const EdgeClassifier classifier(
       figure, fitted.pose.PixelOf(fitted.PositionOf(point::kForehead)).y, skin_colour);
   const EdgeReader reader(figure, classifier);

@@ -1,6 +1,7 @@
 #include "face_fit/fit/eye_fit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -20,6 +21,7 @@ constexpr fsm::Range kSize{0.82F, 1.2F}, kRollRad{-0.25F, 0.25F}, kUpperRaiseMm{
 fsm::EyeTransform FitEye(const ObservedHead& base, const std::map<PointIndex, glm::vec3>& to,
                          fsm::Side side) {
   const auto outline = point::kEyeOutline[side];
+  assert(std::ranges::all_of(outline, [&](PointIndex i) { return to.contains(i); }));
   const glm::vec3 centre = base.head().EyeCentre(side);
   const auto at_rest = [&](std::size_t k) { return base.AtRest(outline[k]); };
   const float inner = at_rest(kInnerCorner).x, outer = at_rest(kOuterCorner).x;

@@ -65,6 +65,7 @@ void LinearLeastSquares::Add(std::initializer_list<double> row, double value) {
 }
 
 std::vector<double> LinearLeastSquares::Solve(double ridge) const {
+  assert(!values_.empty());
   const auto unknowns = static_cast<Eigen::Index>(rows_.size() / values_.size());
   const Eigen::Map<const MatrixXd> columns(rows_.data(), unknowns,
                                            static_cast<Eigen::Index>(values_.size()));

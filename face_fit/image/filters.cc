@@ -1,6 +1,7 @@
 #include "face_fit/image/filters.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
@@ -122,6 +123,7 @@ void KeepConnected(glm::ivec2 to, Mask& image) {
 }
 
 std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold) {
+  assert(std::ranges::any_of(image.values, [=](float value) { return value >= threshold; }));
   cv::Mat distance, label;
   const cv::Mat unknown = View(image) < threshold;
   cv::distanceTransform(unknown, distance, label, cv::DIST_L2, cv::DIST_MASK_5,
@@ -154,6 +156,7 @@ fsm::Image ScaledToFit(fsm::Image image, int most_size) {
 
 template <typename T>
 Raster<T> ScaledDown(const Raster<T>& image, int width, int height) {
+  assert(width >= 1 && width <= image.width && height >= 1 && height <= image.height);
   Raster<T> out(width, height);
   cv::Mat scaled = View(out);
   cv::resize(View(image), scaled, scaled.size(), 0, 0, cv::INTER_AREA);
@@ -163,6 +166,8 @@ template FloatImage ScaledDown(const FloatImage& image, int width, int height);
 template VectorImage ScaledDown(const VectorImage& image, int width, int height);
 
 fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int height) {
+  assert(left >= 0 && width >= 1 && left + width <= image.width);
+  assert(top >= 0 && height >= 1 && top + height <= image.height);
   fsm::Image out = fsm::FilledImage(width, height);
   cv::Mat cropped = View(out);
   View(image)(cv::Rect(left, top, width, height)).copyTo(cropped);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -46,6 +47,7 @@ inline float DistanceToSegment(glm::vec2 p, glm::vec2 a, glm::vec2 b) {
 /// least two points.
 template <typename Point>
 float HeightAt(std::span<const Point> line, float x) {
+  assert(line.size() >= 2);
   std::size_t k = 1;
   while (k + 1 < line.size() && line[k].x < x) ++k;
   const float t = (x - line[k - 1].x) / std::max(line[k].x - line[k - 1].x, 1e-3F);

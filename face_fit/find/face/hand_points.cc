@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -156,6 +157,9 @@ vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::Pnt
 }
 
 FoundFace FaceFromHand(const ObservedHead& base, const HandPoints& points) {
+  assert(std::ranges::all_of(NamedPoints(), [&](const NamedPoint& named) {
+    return !named.needed || points.contains(named.point);
+  }));
   const ToPhoto to_photo(base, points);
   std::vector<fsm::WarpPoint> bends;
   for (const auto& [i, at] : points) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -12,7 +13,9 @@ namespace facefit {
 class PhotoLipSeam {
  public:
   /// `pixels`: at equal steps from the mouth's right end to its left. REQUIRES: two or more.
-  explicit PhotoLipSeam(std::vector<glm::vec2> pixels) : pixels_(std::move(pixels)) {}
+  explicit PhotoLipSeam(std::vector<glm::vec2> pixels) : pixels_(std::move(pixels)) {
+    assert(pixels_.size() >= 2);
+  }
   /// Returns the pixel at a position along the mouth, clamped to 0 = its right end .. 1 = its left.
   glm::vec2 PixelAt(float along) const;
 
