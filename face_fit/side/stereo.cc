@@ -178,10 +178,10 @@ std::vector<PointMatch> FindPatches(const Samples& samples, const CameraPose& fr
   return matches;
 }
 
-/// Returns how much nearer to the front camera each patch lies, where that is seen clearly.
-std::vector<fsm::WarpPoint> FindDepths(const Samples& samples, const CameraPose& front_pose,
-                                       const CameraPose& side_pose, PatchMatcher& matcher) {
-  std::vector<fsm::WarpPoint> depths;
+/// Returns the depths of the patches where they are seen clearly.
+std::vector<PatchDepth> FindDepths(const Samples& samples, const CameraPose& front_pose,
+                                   const CameraPose& side_pose, PatchMatcher& matcher) {
+  std::vector<PatchDepth> depths;
   for (const Patch& patch : PatchesOf(samples, side_pose.TowardsCamera())) {
     const Peak peak = FindPeak(kDepthSteps, [&](int step) {
       const float nearer_mm = kDepthStepMm * static_cast<float>(step);
@@ -193,7 +193,7 @@ std::vector<fsm::WarpPoint> FindDepths(const Samples& samples, const CameraPose&
       return correlation - kCorrelationPerMm2 * nearer_mm * nearer_mm;
     });
     if (peak.value < kMinCorrelation || std::abs(peak.step) > kDepthSteps - 1) continue;
-    depths.push_back({patch.middle.rest, glm::vec3(0, 0, kDepthStepMm * peak.step)});
+    depths.push_back({patch.middle.rest, kDepthStepMm * peak.step});
   }
   return depths;
 }
@@ -216,10 +216,11 @@ std::optional<CameraPose> StereoMatcher::RefinePose(CameraPose side_pose) const 
   return side_pose;
 }
 
-std::vector<fsm::WarpPoint> StereoMatcher::MeasureDepth(const CameraPose& side_pose) const {
+std::optional<std::vector<PatchDepth>> StereoMatcher::MeasureDepth(
+    const CameraPose& side_pose) const {
   PatchMatcher matcher(side_photo_);
   auto depths = FindDepths(samples_, front_pose_, side_pose, matcher);
-  if (depths.size() < kMinPatches) depths.clear();
+  if (depths.size() < kMinPatches) return std::nullopt;
   return depths;
 }
 

@@ -8,6 +8,12 @@
 
 namespace facefit {
 
+/// The depth of a patch of skin that two photos show.
+struct PatchDepth {
+  glm::vec3 at_rest;  ///< of its middle on the base head
+  float nearer_mm;    ///< to the front photo's camera than in the fit
+};
+
 /// Finds small patches of skin of the front photo in a photo from the side.
 class StereoMatcher {
  public:
@@ -18,10 +24,8 @@ class StereoMatcher {
   /// the fitted head has them. Returns nothing if fewer than 25 are found.
   std::optional<CameraPose> RefinePose(CameraPose side_pose) const;
   /// Measures depth: of a turned face the network mostly reports what faces have in common.
-  /// `side_pose`: as refined by RefinePose. Returns positions on the base head at rest, and by how
-  /// many millimetres each lies nearer to the front photo's camera than in the fit; empty if fewer
-  /// than 25 patches are found.
-  std::vector<fsm::WarpPoint> MeasureDepth(const CameraPose& side_pose) const;
+  /// `side_pose`: as refined by RefinePose. Returns nothing if fewer than 25 patches are found.
+  std::optional<std::vector<PatchDepth>> MeasureDepth(const CameraPose& side_pose) const;
 
   /// A point of the fitted skin as the front photo shows it.
   struct Sample {
