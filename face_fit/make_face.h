@@ -13,7 +13,7 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// Is called with the name of each step when it is done.
 using StepDone = std::function<void(const char* step)>;

@@ -8,7 +8,7 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// The most photos from the side that are used for one face.
 inline constexpr std::size_t kMaxSidePhotos = 6;

@@ -9,7 +9,7 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// Why a photo from the side gives no pose.
 struct NoSidePose {

@@ -10,7 +10,7 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// A photo of the person from the side from which the skin's map takes colours.
 struct SideView {

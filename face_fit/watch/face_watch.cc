@@ -18,7 +18,7 @@ EyeLine EyeLineOf(const FoundFace& face) {
 }  // namespace
 
 void FaceWatch::FindPointsIn(const fsm::Image& frame, const NetworkCrop& crop) {
-  last_ = FindAttentivePoints(attention_, frame, crop);
+  last_ = attention_.Find(frame, crop);
   if (last_->face.certainty < kCertainFace) last_.reset();
 }
 

@@ -11,7 +11,7 @@ namespace facefit {
 class FaceWatch {
  public:
   /// Both must outlive this object.
-  FaceWatch(FaceNetworks& networks, tflite::Network& attention)
+  FaceWatch(FaceNetworks& networks, AttentionNetwork& attention)
       : networks_(networks), attention_(attention) {}
 
   /// Measures the face in the next frame; nothing if none is seen with kCertainFace.
@@ -26,7 +26,7 @@ class FaceWatch {
   void FindPointsIn(const fsm::Image& frame, const NetworkCrop& crop);
 
   FaceNetworks& networks_;
-  tflite::Network& attention_;
+  AttentionNetwork& attention_;
   std::optional<AttentiveFace> last_;
   std::vector<glm::vec3> first_;  ///< PointsInMm of the first face seen
   /// The crop relative to the line between the eyes, so that an opening mouth does not move it.

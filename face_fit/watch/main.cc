@@ -86,8 +86,8 @@ void PrintPoints(const std::optional<facefit::AttentiveFace>& face) {
 void Watch(const Options& options) {
   fsm::Image frame = FrameOfSize(options.size);
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(options.networks));
-  facefit::tflite::Network attention =
-      vm::OrThrow(facefit::LoadAttentionLandmarks(options.networks));
+  facefit::AttentionNetwork attention =
+      vm::OrThrow(facefit::AttentionNetwork::Load(options.networks));
   facefit::FaceWatch watch(networks, attention);
   if (!options.points) {
     std::cout << "ms";

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/film/picture_source.h"
 #include "face_track/print/progress.h"
@@ -52,7 +53,7 @@ void PrintFilmTrack(const FilmTrack& wanted) {
   // First of all: a misspelt name is no matter of networks.
   const auto source = vm::OrThrow(OpenPictures(wanted.film, wanted.rate));
   auto networks = vm::OrThrow(facefit::FaceNetworks::Load(wanted.networks));
-  auto attention = vm::OrThrow(facefit::LoadAttentionLandmarks(wanted.networks));
+  auto attention = vm::OrThrow(facefit::AttentionNetwork::Load(wanted.networks));
   const SeenFace& face = SeenFace::Shipped();
   Tracker tracker(networks, attention, face, wanted.tracker);
   const FacePrint print(wanted.format, wanted.extras, face);

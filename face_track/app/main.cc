@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/app/film_track.h"
 #include "face_track/live/track_module.h"
@@ -61,7 +62,7 @@ vm::Result<std::unique_ptr<LiveTracker>> Open(boost::asio::io_context& io, const
   }
   auto networks = facefit::FaceNetworks::Load(wanted.networks);
   if (!networks) return std::unexpected(networks.error());
-  auto attention = facefit::LoadAttentionLandmarks(wanted.networks);
+  auto attention = facefit::AttentionNetwork::Load(wanted.networks);
   if (!attention) return std::unexpected(attention.error());
   auto source = OpenPictures(name, wanted.rate);
   if (!source) return std::unexpected(source.error());

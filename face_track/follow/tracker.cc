@@ -35,7 +35,7 @@ float LidGap(const Points& points, fsm::Side side) {
 
 }  // namespace
 
-Tracker::Tracker(facefit::FaceNetworks& networks, facefit::tflite::Network& attention,
+Tracker::Tracker(facefit::FaceNetworks& networks, facefit::AttentionNetwork& attention,
                  const SeenFace& face, const Settings& settings)
     : networks_(networks), attention_(attention), face_(face), settings_(settings) {}
 
@@ -74,7 +74,7 @@ std::optional<Tracker::Candidate> Tracker::LookAt(const fsm::Image& picture,
                        std::abs(crop.angle_rad - found.face.crop.angle_rad) > 0.05F ||
                        std::abs(crop.size / found.face.crop.size - 1) > 0.05F;
     if (!moved || look + 1 == kLooks) break;
-    found = facefit::FindAttentivePoints(attention_, picture, crop);
+    found = attention_.Find(picture, crop);
   }
   if (doing.miss > kNoFace) return std::nullopt;
   return Candidate{std::move(found), std::move(doing)};
@@ -86,7 +86,7 @@ std::optional<Tracker::Candidate> Tracker::Find(const fsm::Image& picture, bool 
   for (const auto& face : facefit::FindFaces(networks_, picture)) {
     if (faces.size() == kMostFaces) break;
     if (face.certainty < facefit::kCertainFace) continue;
-    faces.push_back(facefit::FindAttentivePoints(attention_, picture, face.crop));
+    faces.push_back(attention_.Find(picture, face.crop));
   }
   std::optional<Candidate> nearest;
   float most_like = -1;
@@ -119,11 +119,9 @@ std::optional<Tracker::Waiting> Tracker::See(const fsm::Image& picture, double m
   constexpr int kLookEvery = 3, kMostUnlike = 5;
   std::optional<Candidate> seen;
   if (last_ && !cut && unlike_ < kMostUnlike) {
-    seen =
-        LookAt(picture,
-               facefit::FindAttentivePoints(attention_, picture, CropOf(fit_->lens(), last_->pose)),
-               &*last_, person_ ? person_->rest : face_.rest,
-               person_ ? FrameFit::What::kPoseAndDoses : FrameFit::What::kPose);
+    seen = LookAt(picture, attention_.Find(picture, CropOf(fit_->lens(), last_->pose)), &*last_,
+                  person_ ? person_->rest : face_.rest,
+                  person_ ? FrameFit::What::kPoseAndDoses : FrameFit::What::kPose);
   }
   if (!seen) {
     last_.reset();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/fit/image_fit.h"
 #include "face_track/fit/person.h"
@@ -28,7 +29,7 @@ class Tracker {
   static constexpr std::size_t kMostWaiting = 120;
 
   /// All outlive it.
-  Tracker(facefit::FaceNetworks& networks, facefit::tflite::Network& attention,
+  Tracker(facefit::FaceNetworks& networks, facefit::AttentionNetwork& attention,
           const SeenFace& face, const Settings& settings);
 
   /// The lines that are known now: of this picture, of several, or none yet.
@@ -64,7 +65,7 @@ class Tracker {
   void SmoothLine(FaceLine& line);
 
   facefit::FaceNetworks& networks_;
-  facefit::tflite::Network& attention_;
+  facefit::AttentionNetwork& attention_;
   const SeenFace& face_;
   const Settings settings_;
   std::optional<FrameFit> fit_;  // once a picture's size is known

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_fit/fit/least_squares.h"
 #include "face_track/learn/judge.h"
@@ -181,7 +182,7 @@ void WriteTable(const std::string& path, const std::string& text) {
 
 void Learn(const std::string& out, std::size_t heads, const std::string& folder) {
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(folder));
-  facefit::tflite::Network attention = vm::OrThrow(facefit::LoadAttentionLandmarks(folder));
+  facefit::AttentionNetwork attention = vm::OrThrow(facefit::AttentionNetwork::Load(folder));
   HeadPainter painter;
   Sums sums;
   sums.face.channels = Channels();
@@ -197,7 +198,7 @@ void Learn(const std::string& out, std::size_t heads, const std::string& folder)
 
 void JudgeFaces(const std::vector<std::string>& names, const std::string& folder) {
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(folder));
-  facefit::tflite::Network attention = vm::OrThrow(facefit::LoadAttentionLandmarks(folder));
+  facefit::AttentionNetwork attention = vm::OrThrow(facefit::AttentionNetwork::Load(folder));
   HeadPainter painter;
   for (const std::string& name : names) {
     fmt::print("{}\n", name);

@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/follow/tracker.h"
 #include "face_track/learn/head_painter.h"
@@ -102,7 +103,7 @@ void PrintGaps(const MouthOfLips& mouth, const MouthLesson& lesson) {
 
 MouthOfLips LearnMouth(std::size_t heads, const std::string& folder) {
   auto networks = vm::OrThrow(facefit::FaceNetworks::Load(folder));
-  auto attention = vm::OrThrow(facefit::LoadAttentionLandmarks(folder));
+  auto attention = vm::OrThrow(facefit::AttentionNetwork::Load(folder));
   HeadPainter painter;
   const fsm::Visemes visemes =
       vm::OrThrow(fsm::MotionTables::Load()).set(fsm::VisemeSetId::k14).visemes;

@@ -28,7 +28,7 @@ std::unique_ptr<fsm::Head> SomeHead(std::size_t number) {
 }
 
 Sitter::Sitter(std::unique_ptr<fsm::Head> head, facefit::FaceNetworks& networks,
-               facefit::tflite::Network& attention, HeadPainter& painter)
+               facefit::AttentionNetwork& attention, HeadPainter& painter)
     : attention_(attention),
       painter_(painter),
       base_(vm::OrThrow(ObservedHead::FromBaseMesh(networks, std::move(head), "head"))) {
@@ -59,7 +59,7 @@ Sitter::Sight Sitter::Look(const fsm::FaceState& state) {
   sight.pose = {.turn = rest.turn * moved.rotation, .place = scale_ * (rest(moved.translation))};
   const facefit::NetworkCrop crop = CropOf(painter_.lens(), sight.pose);
   sight.picture = painter_.Draw(base_.head(), state);
-  const auto found = facefit::FindAttentivePoints(attention_, sight.picture, crop);
+  const auto found = attention_.Find(sight.picture, crop);
   if (found.face.certainty < facefit::kCertainFace) throw std::runtime_error("a face is lost");
   sight.places = PlacesOf(found);
   for (const glm::vec3& p : found.face.points) sight.depth.push_back(p.z * 245 / crop.size);

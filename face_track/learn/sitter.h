@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "face_fit/find/head/observed_head.h"
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/learn/head_painter.h"
 
@@ -17,7 +18,7 @@ std::unique_ptr<fsm::Head> SomeHead(std::size_t number);
 class Sitter {
  public:
   Sitter(std::unique_ptr<fsm::Head> head, facefit::FaceNetworks& networks,
-         facefit::tflite::Network& attention, HeadPainter& painter);
+         facefit::AttentionNetwork& attention, HeadPainter& painter);
 
   struct Sight {
     Pose pose;  ///< of a head whose eyes are as far apart as in tables
@@ -40,7 +41,7 @@ class Sitter {
  private:
   float DepthOf(std::size_t point, const fsm::HeadVertices& vertices) const;
 
-  facefit::tflite::Network& attention_;
+  facefit::AttentionNetwork& attention_;
   HeadPainter& painter_;
   facefit::ObservedHead base_;
   float scale_ = 1;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/film/picture_source.h"
 #include "face_track/follow/tracker.h"
@@ -34,9 +35,9 @@ class LiveTracker {
   /// What tracks: the networks it needs live as long as it does.
   struct Looker {
     facefit::FaceNetworks networks;
-    facefit::tflite::Network attention;
+    facefit::AttentionNetwork attention;
     Tracker tracker;
-    Looker(facefit::FaceNetworks n, facefit::tflite::Network a, const Tracker::Settings& settings)
+    Looker(facefit::FaceNetworks n, facefit::AttentionNetwork a, const Tracker::Settings& settings)
         : networks(std::move(n)),
           attention(std::move(a)),
           tracker(networks, attention, SeenFace::Shipped(), settings) {}

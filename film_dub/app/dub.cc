@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/film/picture_source.h"
 #include "face_track/print/progress.h"
@@ -158,7 +159,7 @@ void MakeDub(const Dub& wanted) {
     }
   }
   auto networks = vm::OrThrow(facefit::FaceNetworks::Load(wanted.networks));
-  auto attention = vm::OrThrow(facefit::LoadAttentionLandmarks(wanted.networks));
+  auto attention = vm::OrThrow(facefit::AttentionNetwork::Load(wanted.networks));
   const ssm::TemporaryFolder folder;
   const NewSpeech speech = vm::OrThrow(Prepare(wanted.speech, folder.File("spoken.wav")));
   tell(fmt::format("the new words last {:.2f} s", speech.length_s));

@@ -60,7 +60,7 @@ fsm::Angles FilmCourse::Turned(const fsm::Angles& held, std::size_t from,
 }
 
 vm::Result<FilmCourse> Survey(const std::string& film, facefit::FaceNetworks& networks,
-                              facefit::tflite::Network& attention,
+                              facefit::AttentionNetwork& attention,
                               const facetrack::Tracker::Settings& settings,
                               const std::function<void(std::size_t, double)>& told) {
   auto source = facetrack::OpenPictures(film, 25, facetrack::kWholeSide);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/follow/tracker.h"
 
@@ -37,7 +38,7 @@ struct FilmCourse {
 /// Follows the face through a film. `told` is called after each picture with its time. Errors: the
 /// film's, kBadValue (fewer than two pictures, or no face in any), kLimit.
 vm::Result<FilmCourse> Survey(const std::string& film, facefit::FaceNetworks& networks,
-                              facefit::tflite::Network& attention,
+                              facefit::AttentionNetwork& attention,
                               const facetrack::Tracker::Settings& settings,
                               const std::function<void(std::size_t pictures, double ms)>& told);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "face_fit/find/head/observed_head.h"
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "vm_protocol/core/or_throw.h"
 
@@ -47,11 +48,11 @@ class AttentionNetworkTest : public NetworkTest {
   void SetUp() override {
     NetworkTest::SetUp();
     if (!networks_) return;
-    auto loaded = LoadAttentionLandmarks("");
+    auto loaded = AttentionNetwork::Load("");
     ASSERT_TRUE(loaded) << loaded.error().text;
     attention_.emplace(std::move(*loaded));
   }
-  std::optional<tflite::Network> attention_;
+  std::optional<AttentionNetwork> attention_;
 };
 
 }  // namespace facefit

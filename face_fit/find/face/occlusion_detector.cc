@@ -189,8 +189,7 @@ Occlusion Occlusion::Of(float patch_excess, std::string patch, float doubt) {
 Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, const FoundFace& face,
                           const fsm::Image& photo) {
   const auto certainty_of = [&networks](std::span<const float> input) {
-    networks.landmarks.Run(input);
-    return networks.landmarks.output(kLandmarkCertainty)[0];
+    return networks.Locate(input).certainty_logit;
   };
   const std::vector<float> network_pixels = face.crop.Sample(photo, kLandmarkInputPixels, 0, 1);
   const float before = certainty_of(network_pixels);

@@ -7,7 +7,7 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// Limits of Occlusion::covered: from kMaybeCovered on something may be there, from kSurelyCovered
 /// on something is. kSurelyCovered was tested on 21 other faces: three exceeded it, two of these

@@ -4,7 +4,7 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// A photo in which people stand upright, and the faces it shows.
 struct UprightPhoto {

@@ -34,14 +34,6 @@ constexpr float kNobody = 0.5F;
 /// Half the width of a neck, divided by the distance from the root of the nose to the chin.
 constexpr float kHalfNeck = 0.35F;
 
-/// Runs the network on an image.
-Mask RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
-  networks.segmentation.Run(input);
-  Mask out(kSegmentationPixels, kSegmentationPixels);
-  std::ranges::copy(networks.segmentation.output(kSegmentationPerson), out.values.begin());
-  return out;
-}
-
 /// Returns how much a point of the network's square, 0..1 on both axes, belongs to a person.
 float PersonAt(const Mask& person, glm::vec2 p) {
   return person.SampleAt(p.x * kSegmentationPixels, p.y * kSegmentationPixels);
@@ -114,9 +106,8 @@ void FillFromFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& p
 /// Returns how much each pixel belongs to a person, 0..1, as the network sees the rectangle.
 Mask SegmentPeople(FaceNetworks& networks, const fsm::Image& image, const ImageRect& rect) {
   // The network expects the rectangle stretched to a square.
-  const Mask people = RunSegmentation(
-      networks, Resampled(image, rect.corner, glm::mat2(rect.size.x, 0, 0, rect.size.y),
-                          kSegmentationPixels, 0, 1));
+  const Mask people = networks.SegmentPerson(Resampled(
+      image, rect.corner, glm::mat2(rect.size.x, 0, 0, rect.size.y), kSegmentationPixels, 0, 1));
   return Mask::From(image.width, image.height, [&](int x, int y) {
     return PersonAt(people, (glm::vec2(x, y) + 0.5F - rect.corner) / rect.size);
   });
@@ -127,7 +118,7 @@ Mask SegmentPersonOf(FaceNetworks& networks, const fsm::Image& image, const Foun
   const glm::vec2 size(image.width, image.height);
   const Mask people = SegmentPeople(networks, image, WholeFor(size, BoxOf(face)));
   const NetworkCrop head = HeadSquare(BoxOf(face), size);
-  const Mask near = RunSegmentation(networks, head.Sample(image, kSegmentationPixels, 0, 1));
+  const Mask near = networks.SegmentPerson(head.Sample(image, kSegmentationPixels, 0, 1));
   auto person = Mask::From(image.width, image.height, [&](int x, int y) {
     // The mean, so that what either pass doubts is left to the matting.
     const glm::vec2 in_square = head.FromImage(glm::vec2(x, y) + 0.5F);

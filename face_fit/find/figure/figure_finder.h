@@ -6,7 +6,7 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// Cuts out the figures of a photo, as the segmentation network sees them.
 FigureCutout FindFigure(FaceNetworks& networks, const fsm::Image& photo);

@@ -4,7 +4,7 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// Finds eyes, nose and mouth of another maker's head as on a photo: both heads are drawn, the
 /// landmark network looks at both, and its points are projected back onto the meshes. The head may

@@ -19,7 +19,7 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// A head as it was drawn for the landmark network, and where the network saw each point.
 struct NetworkPortrait {

@@ -1,7 +1,6 @@
 #include "face_fit/find/network/face_finder.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <glm/common.hpp>
 
@@ -13,7 +12,6 @@
 namespace facefit {
 namespace {
 
-constexpr float kMinScore = 0.5F;
 constexpr float kMinFacePx = 8;  // smaller faces show no landmarks
 /// Overlap above which two boxes show one face: intersection divided by the union, or by the
 /// smaller box.
@@ -32,27 +30,6 @@ constexpr float kPartOverlap = 1.4F, kFillsShare = 0.85F;
 /// Size of the crop the landmark network was trained on, divided by that of the face's box.
 constexpr float kCropMargin = 1.5F;
 
-/// A face found by the detector.
-struct FaceBox {
-  glm::vec2 centre;
-  glm::vec2 size;
-  float score = 0;
-  std::array<glm::vec2, 2> eyes;  ///< the person's right and left
-  float Area() const { return size.x * size.y; }
-};
-
-/// Returns the centres of the detector's cells (kDetectorCells).
-std::vector<glm::vec2> Anchors() {
-  std::vector<glm::vec2> anchors;
-  for (const auto& [cells, boxes] : {std::pair(16, 2), std::pair(8, 6)}) {
-    for (int i = 0; i < cells * cells * boxes; ++i) {
-      const int cell = i / boxes;
-      anchors.push_back((glm::vec2(cell % cells, cell / cells) + 0.5F) / static_cast<float>(cells));
-    }
-  }
-  return anchors;
-}
-
 /// Returns whether two boxes show one face, by the area of their intersection.
 bool OfOneFace(const FaceBox& a, const FaceBox& b) {
   const glm::vec2 low = glm::max(a.centre - a.size * 0.5F, b.centre - b.size * 0.5F);
@@ -63,28 +40,19 @@ bool OfOneFace(const FaceBox& a, const FaceBox& b) {
          both / std::max(std::min(a.Area(), b.Area()), 1e-6F) > kSameSmaller;
 }
 
+/// Returns the faces in a square of an image, in its pixels.
 std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image,
                             const NetworkCrop& crop) {
-  static const std::vector<glm::vec2> anchors = Anchors();
-  networks.detector.Run(crop.Sample(image, kDetectorPixels, -1, 1));
-  const auto boxes = networks.detector.output(kDetectorBoxes);
-  const auto scores = networks.detector.output(kDetectorScores);
-  std::vector<FaceBox> found;
-  for (std::size_t i = 0; i < anchors.size(); ++i) {
-    const float score = tflite::op::Logistic::Apply(scores[i]);
-    if (!(score >= kMinScore)) continue;
-    const float* box = &boxes[kBoxNumbers * i];
-    const auto pixel = [&](DetectorBox k) {
-      return crop.ToImage(anchors[i] + glm::vec2(box[k], box[k + 1]) / float{kDetectorPixels});
-    };
-    FaceBox face{.centre = pixel(kBoxCentre),
-                 .size = glm::abs(glm::vec2(box[kBoxSize], box[kBoxSize + 1])) /
-                         float{kDetectorPixels} * crop.size,
-                 .score = score,
-                 .eyes = {pixel(kBoxRightEye), pixel(kBoxLeftEye)}};
-    if (std::min(face.size.x, face.size.y) >= kMinFacePx) found.push_back(face);
+  auto faces = networks.Detect(crop.Sample(image, kDetectorPixels, -1, 1));
+  for (FaceBox& face : faces) {
+    face.centre = crop.ToImage(face.centre);
+    face.size *= crop.size;
+    for (glm::vec2& eye : face.eyes) eye = crop.ToImage(eye);
   }
-  return found;
+  std::erase_if(faces, [](const FaceBox& face) {
+    return !(std::min(face.size.x, face.size.y) >= kMinFacePx);
+  });
+  return faces;
 }
 
 /// A box, and its rank among boxes of the same face.
@@ -139,9 +107,9 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
   // The first pass locates the face; the others see it upright and as large as in training.
   for (int pass = 0; pass < 3; ++pass) {
     if (pass > 0) face.crop = CropAround(face.points, face.crop.angle_rad);
-    networks.landmarks.Run(face.crop.Sample(image, kLandmarkInputPixels, 0, 1));
-    face.certainty = tflite::op::Logistic::Apply(networks.landmarks.output(kLandmarkCertainty)[0]);
-    face.points = PointsInImage(networks.landmarks.output(kLandmarkPoints), face.crop);
+    const Landmarks found = networks.Locate(face.crop.Sample(image, kLandmarkInputPixels, 0, 1));
+    face.certainty = tflite::op::Logistic::Apply(found.certainty_logit);
+    face.points = PointsInImage(found.points, face.crop);
   }
   return face;
 }
@@ -195,13 +163,8 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
   return faces;
 }
 
-PerPoint<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCrop& crop) {
-  PerPoint<glm::vec3> points;
-  for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    const glm::vec3 at =
-        glm::vec3(raw[3 * i], raw[3 * i + 1], -raw[3 * i + 2]) / float{kLandmarkInputPixels};
-    points[i] = glm::vec3(crop.ToImage(glm::vec2(at)), at.z * crop.size);
-  }
+PerPoint<glm::vec3> PointsInImage(PerPoint<glm::vec3> points, const NetworkCrop& crop) {
+  for (glm::vec3& p : points) p = glm::vec3(crop.ToImage(glm::vec2(p)), p.z * crop.size);
   return points;
 }
 

@@ -8,15 +8,14 @@
 
 namespace facefit {
 
-struct FaceNetworks;
+class FaceNetworks;
 
 /// Returns all faces, largest first. Searches the whole image, and its parts unless it shows a
 /// large face. Drops uncertain faces if at least one of several is certain.
 std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image);
 
-/// Converts the output of a landmark network (x, y, z of each point, in pixels of
-/// kLandmarkInputPixels) to points of FoundFace. `crop`: what the network was shown.
-PerPoint<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCrop& crop);
+/// Returns Landmarks::points as those of FoundFace. `crop`: what the network was shown.
+PerPoint<glm::vec3> PointsInImage(PerPoint<glm::vec3> points, const NetworkCrop& crop);
 
 /// Returns the square around a face's points to show to the landmark network, turned as the line of
 /// its eyes. `axes_rad`: angle of the box that measures the points.

@@ -1,10 +1,11 @@
 #include "face_fit/find/network/face_networks.h"
 
+#include <algorithm>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <utility>
 
-#include "face_fit/find/network/network_points.h"
+#include "face_fit/tflite/operators.h"
 #include "fsm/image/byte_order.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/core/user_folder.h"
@@ -13,6 +14,39 @@ namespace facefit {
 namespace {
 
 constexpr std::size_t kMaxBytes = 64U << 20;
+constexpr float kMinScore = 0.5F;
+
+/// The detector's cells: 16 x 16 with two boxes each, then 8 x 8 with six.
+constexpr int kDetectorCells = 16 * 16 * 2 + 8 * 8 * 6;
+
+// The outputs of the networks, by their order in the files.
+
+/// Of the detector: for each of its cells a box (DetectorBox), and how certain it is of it (a
+/// logit).
+enum DetectorOutput : std::size_t { kDetectorBoxes, kDetectorScores };
+/// The numbers of one box: centre relative to the cell's and size, then x and y of six points, of
+/// which two are used. Pixels of the input.
+enum DetectorBox : std::size_t {
+  kBoxCentre = 0,
+  kBoxSize = 2,
+  kBoxRightEye = 4,
+  kBoxLeftEye = 6,
+  kBoxNumbers = 16
+};
+/// Of the landmark network: the points, and how certain it is that they lie on a face (a logit).
+enum LandmarkOutput : std::size_t { kLandmarkPoints, kLandmarkCertainty };
+
+/// Returns the centres of the detector's cells.
+std::vector<glm::vec2> Anchors() {
+  std::vector<glm::vec2> anchors;
+  for (const auto& [cells, boxes] : {std::pair(16, 2), std::pair(8, 6)}) {
+    for (int i = 0; i < cells * cells * boxes; ++i) {
+      const int cell = i / boxes;
+      anchors.push_back((glm::vec2(cell % cells, cell / cells) + 0.5F) / static_cast<float>(cells));
+    }
+  }
+  return anchors;
+}
 
 /// The package stores its files concatenated in one; its loader lists where each begins.
 tflite::Bytes Packed(const std::string& script, const std::string& data, const std::string& name) {
@@ -87,29 +121,68 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
       vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMaxBytes);
   if (!package || !figure) return FailMissing(where);
   try {
-    return FaceNetworks{
-        .detector = Expect(package->Open("face_detection_short_range.tflite"), kDetectorPixels,
-                           {kDetectorCells * kBoxNumbers, kDetectorCells}),
-        .landmarks = Expect(package->Open("face_landmark.tflite"), kLandmarkInputPixels,
-                            {3 * kNetworkPoints, 1}),
-        .segmentation = Expect(tflite::Network(tflite::Model::Read(fsm::BytesOf(*figure))),
-                               kSegmentationPixels, {kSegmentationPixels * kSegmentationPixels})};
+    return FaceNetworks(Expect(package->Open("face_detection_short_range.tflite"), kDetectorPixels,
+                               {kDetectorCells * kBoxNumbers, kDetectorCells}),
+                        Expect(package->Open("face_landmark.tflite"), kLandmarkInputPixels,
+                               {3 * kNetworkPoints, 1}),
+                        Expect(tflite::Network(tflite::Model::Read(fsm::BytesOf(*figure))),
+                               kSegmentationPixels, {kSegmentationPixels * kSegmentationPixels}));
   } catch (const std::exception& error) {
     return FailUnusable(where, error);
   }
 }
 
-vm::Result<tflite::Network> LoadAttentionLandmarks(const std::string& folder) {
+std::vector<FaceBox> FaceNetworks::Detect(std::span<const float> pixels) {
+  static const std::vector<glm::vec2> anchors = Anchors();
+  detector_.Run(pixels);
+  const auto boxes = detector_.output(kDetectorBoxes), scores = detector_.output(kDetectorScores);
+  std::vector<FaceBox> found;
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    const float score = tflite::op::Logistic::Apply(scores[i]);
+    if (!(score >= kMinScore)) continue;
+    const auto pair = [box = boxes.subspan(kBoxNumbers * i)](DetectorBox k) {
+      return glm::vec2(box[k], box[k + 1]) / float{kDetectorPixels};
+    };
+    found.push_back({.centre = anchors[i] + pair(kBoxCentre),
+                     .size = glm::abs(pair(kBoxSize)),
+                     .score = score,
+                     .eyes = {anchors[i] + pair(kBoxRightEye), anchors[i] + pair(kBoxLeftEye)}});
+  }
+  return found;
+}
+
+Landmarks FaceNetworks::Locate(std::span<const float> pixels) {
+  landmarks_.Run(pixels);
+  return {PointsOf(landmarks_.output(kLandmarkPoints)), landmarks_.output(kLandmarkCertainty)[0]};
+}
+
+Mask FaceNetworks::SegmentPerson(std::span<const float> pixels) {
+  segmentation_.Run(pixels);
+  Mask person(kSegmentationPixels, kSegmentationPixels);
+  std::ranges::copy(segmentation_.output(0), person.values.begin());
+  return person;
+}
+
+vm::Result<tflite::Network> ReadFaceMeshNetwork(const std::string& folder, const char* name,
+                                                std::size_t side,
+                                                std::initializer_list<std::size_t> outputs) {
   const std::string where = folder.empty() ? NetworksFolder() : folder;
   const auto package = FaceMeshPackage::Read(where);
   if (!package) return FailMissing(where);
   try {
-    return Expect(package->Open("face_landmark_with_attention.tflite"), kLandmarkInputPixels,
-                  {3 * kNetworkPoints, 2 * kAttentionLipPoints, 2 * kAttentionEyePoints,
-                   2 * kAttentionEyePoints, 2 * kAttentionIrisPoints, 2 * kAttentionIrisPoints, 1});
+    return Expect(package->Open(name), side, outputs);
   } catch (const std::exception& error) {
     return FailUnusable(where, error);
   }
+}
+
+PerPoint<glm::vec3> PointsOf(std::span<const float> output) {
+  PerPoint<glm::vec3> points;
+  for (std::size_t i = 0; i < kNetworkPoints; ++i) {
+    points[i] = glm::vec3(output[3 * i], output[3 * i + 1], -output[3 * i + 2]) /
+                float{kLandmarkInputPixels};
+  }
+  return points;
 }
 
 }  // namespace facefit

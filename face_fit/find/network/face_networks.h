@@ -1,7 +1,16 @@
 #pragma once
 
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <initializer_list>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "face_fit/find/network/network_points.h"
+#include "face_fit/image/raster.h"
 #include "face_fit/tflite/network.h"
 #include "vm_protocol/core/result.h"
 
@@ -10,58 +19,53 @@ namespace facefit {
 /// Sides of the networks' square inputs, pixels: detector, landmarks, segmentation.
 inline constexpr int kDetectorPixels = 128, kLandmarkInputPixels = 192, kSegmentationPixels = 256;
 
-/// The detector's cells: 16 x 16 with two boxes each, then 8 x 8 with six.
-inline constexpr int kDetectorCells = 16 * 16 * 2 + 8 * 8 * 6;
-/// Points of the landmark network with attention at the lips, an eye and its iris.
-inline constexpr int kAttentionLipPoints = 80, kAttentionEyePoints = 71, kAttentionIrisPoints = 5;
-
-// The outputs of the networks, by their order in the files. Right and left are the person's.
-
-/// Of the detector: for each of its cells a box (DetectorBox), and how certain it is of it (a
-/// logit).
-enum DetectorOutput : std::size_t { kDetectorBoxes, kDetectorScores };
-/// The numbers of one box: centre relative to the cell's and size, then x and y of six points, of
-/// which two are used. Pixels of the input.
-enum DetectorBox : std::size_t {
-  kBoxCentre = 0,
-  kBoxSize = 2,
-  kBoxRightEye = 4,
-  kBoxLeftEye = 6,
-  kBoxNumbers = 16
+/// A face found by the detector; places and sizes 0..1 of the square that it was shown.
+struct FaceBox {
+  glm::vec2 centre, size;
+  float score;                    ///< 0..1
+  std::array<glm::vec2, 2> eyes;  ///< the person's right and left
+  float Area() const { return size.x * size.y; }
 };
-/// Of the landmark network: x, y, z of 468 points, pixels of its input, and how certain it is that
-/// they lie on a face (a logit).
-enum LandmarkOutput : std::size_t { kLandmarkPoints, kLandmarkCertainty };
-/// Of the segmentation: how much each pixel of its input belongs to a person, 0..1.
-enum SegmentationOutput : std::size_t { kSegmentationPerson };
-/// Of the landmark network with attention: 468 points (x, y, z), then points (x, y) of lips, eyes
-/// and irises, all in pixels of its input, and how certain it is that there is a face (a logit).
-enum AttentionOutput : std::size_t {
-  kAttentionPoints,
-  kAttentionLips,
-  kAttentionRightEye,
-  kAttentionLeftEye,
-  kAttentionRightIris,
-  kAttentionLeftIris,
-  kAttentionCertainty
+
+/// The points of a face, 0..1 of the square that the network was shown; z in the same unit towards
+/// the viewer.
+struct Landmarks {
+  PerPoint<glm::vec3> points;
+  float certainty_logit;  ///< how certain it is that they lie on a face
 };
 
 /// The networks of the npm packages @mediapipe/face_mesh and @mediapipe/selfie_segmentation (both
-/// Apache-2.0), read from the unpacked packages.
-struct FaceNetworks {
-  tflite::Network detector;      ///< 128 x 128 in -1..1 -> DetectorOutput
-  tflite::Network landmarks;     ///< 192 x 192 in 0..1 -> LandmarkOutput
-  tflite::Network segmentation;  ///< 256 x 256 in 0..1 -> SegmentationOutput
-
-  /// Loads them from `folder`; "" = NetworksFolder(). Errors: kUnavailable (says how to install
-  /// them), kBadValue (the files are damaged).
+/// Apache-2.0). Each looks at a square of RGB pixels. Thread: one at a time.
+class FaceNetworks {
+ public:
+  /// Loads them from the unpacked packages in `folder`; "" = NetworksFolder(). Errors: kUnavailable
+  /// (says how to install them), kBadValue (the files are damaged).
   static vm::Result<FaceNetworks> Load(const std::string& folder);
+
+  /// Returns boxes with a score of at least 0.5, several of each face. `pixels`: kDetectorPixels,
+  /// -1..1.
+  std::vector<FaceBox> Detect(std::span<const float> pixels);
+  /// `pixels`: kLandmarkInputPixels, 0..1.
+  Landmarks Locate(std::span<const float> pixels);
+  /// Returns how much each pixel belongs to a person. `pixels`: kSegmentationPixels, 0..1.
+  Mask SegmentPerson(std::span<const float> pixels);
+
+ private:
+  FaceNetworks(tflite::Network detector, tflite::Network landmarks, tflite::Network segmentation)
+      : detector_(std::move(detector)),
+        landmarks_(std::move(landmarks)),
+        segmentation_(std::move(segmentation)) {}
+
+  tflite::Network detector_, landmarks_, segmentation_;
 };
 
-/// Loads the landmark network with attention of the same package: 192 x 192 in 0..1 ->
-/// AttentionOutput. Slower than the plain one, finer at lips and eyes. Errors: as
-/// FaceNetworks::Load.
-vm::Result<tflite::Network> LoadAttentionLandmarks(const std::string& folder);
+/// Reads a network of @mediapipe/face_mesh. `side`: of its square input, pixels; `outputs`: count
+/// of the numbers of each output. Errors: as FaceNetworks::Load.
+vm::Result<tflite::Network> ReadFaceMeshNetwork(const std::string& folder, const char* name,
+                                                std::size_t side,
+                                                std::initializer_list<std::size_t> outputs);
+/// Returns the points of an output: x, y, z of each in pixels of a square of kLandmarkInputPixels.
+PerPoint<glm::vec3> PointsOf(std::span<const float> output);
 
 /// Returns $GALATEA_NETWORKS, else $XDG_CACHE_HOME/galatea/networks, else
 /// ~/.cache/galatea/networks.

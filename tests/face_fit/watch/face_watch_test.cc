@@ -120,7 +120,7 @@ TEST_F(FaceWatchTest, AFaceThatGoesAndComesBackIsFoundAgain) {
 }
 
 TEST_F(FaceWatchTest, AFaceWhosePointsAreUncertainIsNotSeen) {
-  tflite::Network blind = SeesNoFace();
+  AttentionNetwork blind(SeesNoFace());
   FaceWatch watch(*networks_, blind);
   for (int frame = 0; frame < 2; ++frame) {
     EXPECT_FALSE(watch.MeasureNext(Draw({})));

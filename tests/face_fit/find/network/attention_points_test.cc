@@ -23,7 +23,7 @@ class AttentionTest : public AttentionNetworkTest {
   AttentiveFace See(const fsm::Image& image) {
     const auto faces = FindFaces(*networks_, image);
     if (faces.empty()) throw std::runtime_error("no face is seen");
-    return FindAttentivePoints(*attention_, image, faces.front().crop);
+    return attention_->Find(image, faces.front().crop);
   }
 };
 
