@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -81,14 +80,6 @@ std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
   return side_photos;
 }
 
-/// Returns a line that says where the face lies in the whole photo, in the pixels of --points.
-std::string LineOfNose(glm::vec2 nose_whole_px, glm::ivec2 whole_size_px) {
-  const auto pixel = [](float v) { return std::to_string(std::lround(v)); };
-  return "place       nose " + pixel(nose_whole_px.x) + " pixels from the left, " +
-         pixel(nose_whole_px.y) + " from the top, of " + std::to_string(whole_size_px.x) + " x " +
-         std::to_string(whole_size_px.y) + "\n";
-}
-
 /// Throws std::runtime_error with what is missing.
 void CheckOptions(const Options& options) {
   if (!fsm::IsFaceName(options.name)) {
@@ -128,11 +119,10 @@ void MakeAndWriteFace(const Options& options, FaceModels& models, const facefit:
       models.base, front, face, facefit::SidePhotoSet{models.networks, side_photos},
       options.glasses, progress));
   for (const auto& [path, reason] : made.rejected) NoticeRejected(path, reason);
-  const std::string report = LineOfNose(face.nose_whole_px, front.whole_size_px) + made.report;
-  const std::string folder =
-      vm::OrThrow(fsm::WriteFace(made.baked.head, report, FolderOfFaces(options), options.name));
+  const std::string folder = vm::OrThrow(
+      fsm::WriteFace(made.baked.head, made.report, FolderOfFaces(options), options.name));
   progress("written");
-  std::cout << report << "face_fit: wrote " << folder << "\n";
+  std::cout << made.report << "face_fit: wrote " << folder << "\n";
 }
 
 /// Returns the face; throws std::runtime_error if none was found, or only an uncertain one.

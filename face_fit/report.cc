@@ -61,8 +61,10 @@ void WarnOfPose(const CameraPose& pose, Warnings& warnings) {
   const float turned_deg = std::abs(glm::degrees(pose.rotation_rad.y));
   const float bent_deg = std::abs(glm::degrees(pose.rotation_rad.x));
   warnings.Add(turned_deg > look.turned_far_deg,
-               "the head is turned far; its other side is guessed and may look wrong: a photo "
-               "turned by less than 15 degrees is needed, or --view with another one");
+               fmt::format("the head is turned far; its other side is guessed and may look wrong: "
+                           "a photo turned by less than {} degrees is needed, or --view with "
+                           "another one",
+                           look.turned_deg));
   warnings.Add(turned_deg > look.turned_deg && turned_deg <= look.turned_far_deg,
                "the head is turned; one side is completed from the other");
   warnings.Add(bent_deg > look.bent_deg, "the head is bent; a level photo fits better");
@@ -139,6 +141,7 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit
   const Expression& expression = fit.head.expression;
   const auto& irises = fit.irises.eyes;
   std::string out = fmt::format(
+      "place       nose {} pixels from the left, {} from the top, of {} x {}\n"
       "photo       {} x {} pixels, eyes {:.0f} pixels apart at their outer corners\n"
       "faces       {}\n"
       "certainty   {:.3f}\n"
@@ -148,11 +151,12 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit
       "residual    {:.2f} mm\n"
       "coverage    {:.0f} % of the face's map\n"
       "glasses     {}\n",
-      front.image.width, front.image.height, glm::length(face.found.AcrossEyes()), front.face_count,
-      face.found.certainty, turn_deg.x, turn_deg.y, turn_deg.z, expression.smile,
-      expression.jaw_drop, expression.lips_part, irises.right.circle.contrast,
-      irises.left.circle.contrast, kClearIris, ResidualMm(face.found, fit.head),
-      100 * baked.coverage, baked.head.glasses ? "yes" : "no");
+      std::lround(face.nose_whole_px.x), std::lround(face.nose_whole_px.y), front.whole_size_px.x,
+      front.whole_size_px.y, front.image.width, front.image.height,
+      glm::length(face.found.AcrossEyes()), front.face_count, face.found.certainty, turn_deg.x,
+      turn_deg.y, turn_deg.z, expression.smile, expression.jaw_drop, expression.lips_part,
+      irises.right.circle.contrast, irises.left.circle.contrast, kClearIris,
+      ResidualMm(face.found, fit.head), 100 * baked.coverage, baked.head.glasses ? "yes" : "no");
   if (const auto& occlusion = face.occlusion) {
     out += fmt::format(
         "covered     {:.2f} (from {} on something may be before the face, from {} on it is){}\n",

@@ -124,6 +124,7 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     for (const auto& side : sides) side_photos.push_back(side.get());
     facefit::FrontFace face = work.front.face.value_or(facefit::FrontFace{});
     face.found = FoundFrom(points);
+    face.nose_whole_px = face.found.PixelOf(facefit::point::kNoseTip);
     const auto from_side =
         models ? std::optional(facefit::SidePhotoSet{models->networks, side_photos}) : std::nullopt;
     auto made = facefit::MakeFace(*work.base, work.front.photo, face, from_side);

@@ -38,12 +38,19 @@ struct ReportTest : testing::Test {
   BakedHead baked;
 };
 
+TEST_F(ReportTest, ThePlaceOfTheFaceIsThatInTheWholePhoto) {
+  front.whole_size_px = {800, 600};
+  face.nose_whole_px = {412.6F, 77.2F};
+  EXPECT_TRUE(Says("place       nose 413 pixels from the left, 77 from the top, of 800 x 600\n"));
+}
+
 TEST_F(ReportTest, AHeadTurnedFarIsToldApartFromOneTurnedALittle) {
   EXPECT_FALSE(Says("turned"));
   fit.head.pose.rotation_rad.y = glm::radians(-17.0F);
   EXPECT_TRUE(Says("the head is turned; one side"));
   fit.head.pose.rotation_rad.y = glm::radians(27.0F);
   EXPECT_TRUE(Says("the head is turned far"));
+  EXPECT_TRUE(Says("turned by less than 15 degrees"));
   EXPECT_FALSE(Says("bent"));
 }
 
