@@ -134,10 +134,11 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
   }
   auto& [fit, views, rejected] = fitted;
   if (rejected.size() < count) done("seen from the side, too");
-  BakedHead baked = BakeHead(face, fit, front.image, front.figure, views,
+  const CompletedFigure whole = CompleteFigure(fit.head, front.figure);
+  BakedHead baked = BakeHead(face, fit, front.image, front.figure, whole, views,
                              glasses ? *glasses : WearsGlasses(face, front.image));
   done("photo put on");
-  std::string report = Report(front, front_face, fit, baked);
+  std::string report = Report(front, front_face, fit, whole.completed, baked);
   return MadeFace{std::move(fit), std::move(baked), std::move(report), std::move(rejected)};
 }
 

@@ -108,7 +108,7 @@ void WarnOfOcclusion(const Occlusion& occlusion, Warnings& warnings) {
 }
 
 std::string WarningsOf(const FrontPhoto& front, const FrontFace& front_face, const FaceFit& fit,
-                       const BakedHead& baked) {
+                       const Completed& completed, const BakedHead& baked) {
   const auto& look = PhotoLook().report;
   const FoundFace& face = front_face.found;
   Warnings warnings;
@@ -127,7 +127,7 @@ std::string WarningsOf(const FrontPhoto& front, const FrontFace& front_face, con
   warnings.Add(baked.head.glasses,
                "glasses stay as they are, and so does the skin round the eyes; --glasses no if "
                "there are none");
-  WarnOfCuts(face, front.image, baked.completed, warnings);
+  WarnOfCuts(face, front.image, completed, warnings);
   if (front_face.occlusion) WarnOfOcclusion(*front_face.occlusion, warnings);
   warnings.Add(front.face_count > 1, "several faces; --face N takes another");
   return warnings.lines();
@@ -136,7 +136,7 @@ std::string WarningsOf(const FrontPhoto& front, const FrontFace& front_face, con
 }  // namespace
 
 std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit& fit,
-                   const BakedHead& baked) {
+                   const Completed& completed, const BakedHead& baked) {
   const glm::vec3 turn_deg = glm::degrees(fit.head.pose.rotation_rad);
   const Expression& expression = fit.head.expression;
   const auto& irises = fit.irises.eyes;
@@ -163,7 +163,7 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit
         occlusion->covered, kMaybeCovered, kSurelyCovered,
         occlusion->part_name ? ", most at " + *occlusion->part_name : "");
   }
-  return out + WarningsOf(front, face, fit, baked);
+  return out + WarningsOf(front, face, fit, completed, baked);
 }
 
 }  // namespace facefit

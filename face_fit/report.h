@@ -7,9 +7,9 @@
 
 namespace facefit {
 
-/// Returns the measurements, a line each, and warnings of what could look better. `baked`: what
-/// BakeHead made of the photo and the fit.
+/// Returns the measurements, a line each, and warnings of what could look better. `completed`,
+/// `baked`: what CompleteFigure and BakeHead made of the photo and the fit.
 std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit& fit,
-                   const BakedHead& baked);
+                   const Completed& completed, const BakedHead& baked);
 
 }  // namespace facefit

@@ -143,7 +143,8 @@ void SetSheet(Sheet sheet, fsm::PhotoHead& head) {
 }  // namespace
 
 BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
-                   const FigureCutout& figure, std::span<const SideView> side_views, bool glasses) {
+                   const FigureCutout& figure, const CompletedFigure& whole,
+                   std::span<const SideView> side_views, bool glasses) {
   const FittedHead& fitted = fit.head;
   fsm::PhotoHead head = HeadOf(fitted);
   head.glasses = glasses;
@@ -162,16 +163,16 @@ BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& 
   head.lined = traits.lined;
   head.skin_low = kSkinLow;
   head.skin_high = kSkinHigh;
-  const CompletedFigure whole = CompleteFigure(fitted, figure);
   SetSheet(MakeSheet(fitted, whole.pose, whole.figure), head);
   fsm::Image atlas = PackAtlas(map.image, BehindFace(fitted, whole.pose, whole.figure),
                                whole.figure.opacity, fitted.pose.PixelsPerMm());
+  // HeadOf has the eyes as in the photo's expression.
   const fsm::Sided<fsm::EyeTransform> eyes = EyesAtRest(fitted);
   head.eyes = eyes;
   head.eye_pictures = PaintEyes(face, fit, eyes, photo, atlas);
   SetColours(face, fit.irises, photo, head);
   head.atlas = std::make_shared<fsm::Image>(std::move(atlas));
-  return {std::move(head), coverage, whole.completed};
+  return {std::move(head), coverage};
 }
 
 }  // namespace facefit

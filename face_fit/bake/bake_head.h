@@ -9,13 +9,14 @@ namespace facefit {
 /// A head made from a photo; head_atlas.h says how its atlas is laid out.
 struct BakedHead {
   fsm::PhotoHead head;
-  float coverage = 0;   ///< share of the face's map that photos show, 0..1
-  Completed completed;  ///< parts of the figure that the photo does not show
+  float coverage = 0;  ///< share of the face's map that photos show, 0..1
 };
 
-/// Bakes a photo onto a fitted head. `figure`: the figure in `photo`; `side_views`: photos of the
-/// person from the side, may be empty; `glasses`: whether the person wears them. Pure; thread: any.
+/// Bakes a photo onto a fitted head. `figure`: the figure in `photo`; `whole`: CompleteFigure of
+/// it; `side_views`: photos of the person from the side, may be empty; `glasses`: whether the
+/// person wears them. Pure; thread: any.
 BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
-                   const FigureCutout& figure, std::span<const SideView> side_views, bool glasses);
+                   const FigureCutout& figure, const CompletedFigure& whole,
+                   std::span<const SideView> side_views, bool glasses);
 
 }  // namespace facefit

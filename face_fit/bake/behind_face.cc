@@ -4,8 +4,8 @@
 
 #include "face_fit/bake/chin.h"
 #include "face_fit/bake/skin_surface.h"
-#include "face_fit/complete/figure_grain.h"
 #include "face_fit/image/filters.h"
+#include "face_fit/image/grain.h"
 #include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
 

@@ -9,7 +9,8 @@
 
 namespace facefit {
 
-/// Returns the form of a fitted head as fsm makes it; what the photo paints on it is left out.
+/// Returns the form of a fitted head as fsm makes it, with the eyes of the photo's expression; what
+/// the photo paints on it is left out.
 fsm::PhotoHead HeadOf(const FittedHead& fitted);
 
 /// Returns the positions of the fitted head's skin as fsm will show it in a state, head's frame,

@@ -6,6 +6,7 @@
 
 #include "face_fit/image/filters.h"
 #include "face_fit/image/pixels.h"
+#include "face_fit/tables/photo_look.h"
 #include "fsm/base/smooth_step.h"
 
 namespace facefit {
@@ -46,6 +47,12 @@ void AddGrain(const Mask& known, const Mask& amount, int reach, fsm::Image& imag
   for (const auto& [to, from, share] : transfers) {
     SetRgb(image, to, colours[to] + share * (colours[from] - even[from]));
   }
+}
+
+void AddGrainToFigure(const Mask& known, Mask amount, float pixels_per_mm, fsm::Image& image) {
+  const auto& look = PhotoLook().grain;
+  for (float& v : amount.values) v *= look.pixels_per_mm.Ramp(pixels_per_mm);
+  AddGrain(known, amount, MmToPixels(look.coarsest_on_figure_mm, pixels_per_mm, 2), image);
 }
 
 }  // namespace facefit

@@ -24,7 +24,7 @@ struct ReportTest : testing::Test {
     for (PhotoIris* iris : {&fit.irises.eyes.right, &fit.irises.eyes.left}) iris->seen = true;
   }
   bool Says(const std::string& what) const {
-    return Report(front, face, fit, baked).find(what) != std::string::npos;
+    return Report(front, face, fit, completed, baked).find(what) != std::string::npos;
   }
 
   void Cover(float nose_excess, float doubt) {
@@ -35,6 +35,7 @@ struct ReportTest : testing::Test {
   FrontPhoto front{.image = {.width = 200, .height = 200, .rgba = {}}, .face_count = 1};
   FrontFace face;
   FaceFit fit;
+  Completed completed;
   BakedHead baked;
 };
 
@@ -83,9 +84,9 @@ TEST_F(ReportTest, WhereAFaceIsCoveredIsNotSaidIfOnlyTheNetworksDoubtTells) {
 
 TEST_F(ReportTest, WhatThePhotoCutsOffAndWasDrawnIsNamed) {
   EXPECT_FALSE(Says("cuts the figure"));
-  baked.completed = {.neck = true, .shoulders = true, .hair = false};
+  completed = {.neck = true, .shoulders = true, .hair = false};
   EXPECT_TRUE(Says("light: neck, shoulders and clothes below it; a photo"));
-  baked.completed = {.neck = false, .shoulders = true, .hair = true};
+  completed = {.neck = false, .shoulders = true, .hair = true};
   EXPECT_TRUE(Says("light: shoulders beside it; hair above or beside it; a photo"));
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "face_fit/complete/figure_grain.h"
 #include "face_fit/image/filters.h"
 #include "tests/face_fit/disc_image.h"
 
