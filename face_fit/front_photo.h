@@ -12,8 +12,7 @@ namespace facefit {
 // A photo from the front is measured in three kinds of pixels:
 // - given: of the photo as it was given;
 // - whole: of all of it, set upright; as given for PhotoExtent::kWhole (make_face.h), else scaled
-// down
-//   to at most kWorkingSize to a side. HandPoints are in these;
+//   down to at most kWorkingSize to a side. HandPoints are in these;
 // - close-up: of the part that is worked on, which for PhotoExtent::kWhole is all of it. Faces,
 //   figures and fits are in these.
 

@@ -141,7 +141,7 @@ const facefit::FrontFace& RequireFace(const Options& options, const facefit::Pre
   return *front.face;
 }
 
-void FaceOfPhoto(const Options& options) {
+void MakeFaceOfPhoto(const Options& options) {
   const Progress progress(options.quiet);
   fsm::Image photo = vm::OrThrow(facefit::ReadPhoto(options.photo, facefit::kFineSize));
   facefit::FaceChoice choice = facefit::FaceNumber{options.face};
@@ -163,7 +163,7 @@ void FaceOfPhoto(const Options& options) {
   MakeAndWriteFace(options, models, front->photo, RequireFace(options, *front), progress);
 }
 
-void FaceOfOriginal(const Options& options) {
+void MakeFaceOfOriginal(const Options& options) {
   const Progress progress(options.quiet);
   facefit::OriginalFace original = facefit::ReadOriginalFace(options.galatea, options.name);
   progress("photo read");
@@ -177,8 +177,8 @@ void FaceOfOriginal(const Options& options) {
 void Run(const Options& options) {
   if (!options.head.empty()) return WritePointsOfHead(options);
   CheckOptions(options);
-  if (!options.galatea.empty()) return FaceOfOriginal(options);
-  FaceOfPhoto(options);
+  if (!options.galatea.empty()) return MakeFaceOfOriginal(options);
+  MakeFaceOfPhoto(options);
 }
 
 }  // namespace

@@ -10,9 +10,12 @@
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
+namespace {
 
 /// Least value of either width round the mouth: the blur of a small photo's pixels.
 constexpr glm::vec2 kMinRimPx{0.8F, 1};
+
+}  // namespace
 
 PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm) {
   const PhotoLookNumbers& look = PhotoLook();

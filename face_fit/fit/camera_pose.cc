@@ -4,8 +4,11 @@
 #include <glm/matrix.hpp>
 
 namespace facefit {
+namespace {
 
 constexpr glm::vec3 kMiddle{0, -10, 20};  ///< centre of the head's rotation
+
+}  // namespace
 
 glm::mat3 CameraPose::Rotation() const {
   const float cx = std::cos(rotation_rad.x), sx = std::sin(rotation_rad.x);
