@@ -11,8 +11,9 @@ namespace facetrack {
 /// How a person's face looked at rest, and its pose in another picture by that: what the network's
 /// points say of a turn is off by one or two degrees, in its own way for each face. The template is
 /// what is above the mouth, without the eyes; it is moved by pose and doses until it lies on what
-/// looks like it (Lucas and Kanade 1981, with robust weights). How deep the face is one picture
-/// does not show: a few numbers that say so are found with the poses, from picture to picture.
+/// looks like it (Lucas and Kanade 1981, with robust weights); the upper forehead, across which
+/// hair falls, is judged for likeness alone. How deep the face is one picture does not show: a few
+/// numbers that say so are found with the poses, from picture to picture.
 class ImageFit {
  public:
   ImageFit(const SeenFace& face, const Lens& lens, const Points& rest, const FaceLook& look,
@@ -34,6 +35,7 @@ class ImageFit {
     std::array<std::size_t, 3> near;  ///< network's points beside it
     std::array<float, 3> part;
     glm::vec3 off;  ///< from where these parts of them lie
+    bool hair;      ///< hair may hang there: judged for likeness alone
     glm::vec3 normal;
     glm::vec3 ray;                   ///< towards the camera of the template, z = 1
     std::array<float, kForms> form;  ///< how much each number of the depth moves it along the ray
