@@ -42,7 +42,7 @@ class DubFace {
   const std::unique_ptr<fsm::RenderContext> context_;
   const std::unique_ptr<fsm::Renderer> renderer_;
   fsm::Scene scene_;
-  const fsm::View view_;
+  const fsm::FrameCamera view_;
   fsm::FaceState state_;
   fsm::HeadVertices vertices_;
   fsm::Image drawn_;

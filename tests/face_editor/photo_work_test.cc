@@ -15,7 +15,7 @@ namespace {
 
 /// A picture of a built-in head, drawn into a file.
 void DrawHead(const std::string& face, const std::string& path, float turned_degrees) {
-  constexpr int kSide = 500;
+  constexpr int kSide = 640;
   const auto head = fsm::MakeSymmetricHead(face);
   fsm::HeadVertices vertices;
   head->Evaluate({}, vertices);
