@@ -10,7 +10,7 @@
 namespace fsm {
 namespace {
 
-const glm::vec4 kNone(0);
+const glm::vec4 kZero(0);
 
 /// The vertex attributes kDetailTexcoord, kDetail and kDetailMore, per vertex.
 struct DetailAttributes {
@@ -49,8 +49,8 @@ struct PaintAttributes {
 
 PaintAttributes PaintOf(const HeadSurface& surface) {
   const std::size_t count = surface.albedo.size();
-  PaintAttributes paint{std::vector<glm::vec4>(count), std::vector<glm::vec4>(count, kNone),
-                        std::vector<glm::vec4>(count, kNone), surface.opacity,
+  PaintAttributes paint{std::vector<glm::vec4>(count), std::vector<glm::vec4>(count, kZero),
+                        std::vector<glm::vec4>(count, kZero), surface.opacity,
                         std::vector<glm::vec2>(count, glm::vec2(0))};
   paint.opacity.resize(count, 1.0f);
   for (std::size_t i = 0; i < count; ++i) {
@@ -71,7 +71,7 @@ PaintAttributes PaintOf(const HeadSurface& surface) {
 std::vector<SkinDetail> SkinDetailOf(const PaintAttributes& paint, const DetailAttributes& detail) {
   std::vector<SkinDetail> out(paint.opacity.size(), SkinDetail::kPlain);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (detail.detail[i] != kNone || detail.more[i] != glm::vec2(0)) out[i] = SkinDetail::kCreased;
+    if (detail.detail[i] != kZero || detail.more[i] != glm::vec2(0)) out[i] = SkinDetail::kCreased;
     if (paint.opacity[i] < 1 || paint.lid_skin[i].x > 0) out[i] = SkinDetail::kDetailed;
   }
   return out;
