@@ -80,8 +80,8 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most
 }
 
 vm::Result<fsm::Image> ReadPhoto(const std::string& path, int most_size) {
-  constexpr std::size_t kMaxBytes = 200'000'000;
-  const auto bytes = vm::ReadTextFile(path, kMaxBytes);
+  constexpr std::size_t kMaxFileBytes = 200'000'000;
+  const auto bytes = vm::ReadTextFile(path, kMaxFileBytes);
   if (!bytes) return std::unexpected(bytes.error());
   auto image = DecodePhoto(fsm::BytesOf(*bytes), most_size);
   if (!image) return vm::Fail(image.error().code, "'" + path + "': " + image.error().text);
