@@ -7,7 +7,7 @@
 namespace facefit {
 namespace {
 
-constexpr glm::vec3 kSkin(205, 165, 145), kRed(190, 105, 105), kShine(250, 245, 240),
+constexpr glm::vec3 kPlainSkin(205, 165, 145), kRed(190, 105, 105), kShine(250, 245, 240),
     kLine(50, 30, 30);
 constexpr int kWide = 120, kHigh = 60;
 
@@ -23,7 +23,7 @@ struct Lips {
       for (int x = 0; x < kWide; ++x) {
         const float within = 8.0F - std::abs(static_cast<float>(y) - 30.0F);
         texels(x, y) = {.within_lips_mm = within};
-        const glm::vec3 c = within > 0 ? colour(x, y) : kSkin;
+        const glm::vec3 c = within > 0 ? colour(x, y) : kPlainSkin;
         for (int k = 0; k < 3; ++k) map.rgba.push_back(static_cast<std::uint8_t>(c[k]));
         map.rgba.push_back(255);
       }
@@ -40,7 +40,7 @@ struct Lips {
 glm::vec3 AfterSmile(int x, int y) {
   if (y == 30) return kLine;
   if (x == 60) return kShine;
-  return x > 40 && x < 80 ? kRed : kSkin;
+  return x > 40 && x < 80 ? kRed : kPlainSkin;
 }
 
 TEST(LipsTest, WhatASmileDrewThinIsRedAgainUpToTheCorners) {
@@ -49,13 +49,13 @@ TEST(LipsTest, WhatASmileDrewThinIsRedAgainUpToTheCorners) {
   for (const int x : {10, 30, 90, 110}) {
     const glm::vec3 c = lips.At(x, 34);
     EXPECT_GT(c.r / c.g, 1.55F) << x;
-    EXPECT_LT(c.g, 0.8F * kSkin.g) << x;
+    EXPECT_LT(c.g, 0.8F * kPlainSkin.g) << x;
   }
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(lips.At(50, 34)[k], kRed[k], 4);
     EXPECT_NEAR(lips.At(60, 34)[k], kShine[k], 1) << "what shines still shines";
     EXPECT_NEAR(lips.At(20, 30)[k], kLine[k], 1) << "the line between the lips stays";
-    EXPECT_NEAR(lips.At(20, 50)[k], kSkin[k], 1) << "skin is no lip";
+    EXPECT_NEAR(lips.At(20, 50)[k], kPlainSkin[k], 1) << "skin is no lip";
   }
 }
 
@@ -64,7 +64,7 @@ TEST(LipsTest, TheBorderIsSoft) {
   RestoreLipColour(lips.texels, lips.map);
   const float edge = lips.At(20, 37).g, inside = lips.At(20, 34).g;
   EXPECT_GT(edge, inside + 10);
-  EXPECT_LT(edge, kSkin.g - 3);
+  EXPECT_LT(edge, kPlainSkin.g - 3);
 }
 
 TEST(LipsTest, LipsNoRedderThanSkinStayAsTheyAre) {
