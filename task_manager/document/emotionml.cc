@@ -15,7 +15,7 @@ constexpr std::string_view kVocabularies = "http://www.w3.org/TR/emotion-voc/xml
 
 constexpr std::string_view kVocabularySets =
     "category-set dimension-set appraisal-set action-tendency-set";
-constexpr std::string_view kTypes = "category dimension appraisal action-tendency";
+constexpr std::string_view kDescriptions = "category dimension appraisal action-tendency";
 
 class EmotionChecker {
  public:
@@ -117,9 +117,9 @@ class EmotionChecker {
 
   void Declare(const vm::xml::Node& node) {
     Attributes(node, "type id", "type id");
-    if (!HasWord(kTypes, node.Get("type", "category"))) {
+    if (!HasWord(kDescriptions, node.Get("type", "category"))) {
       Say(node, "vocabulary type '" + node.Get("type") + "'",
-          "expected one of " + std::string(kTypes));
+          "expected one of " + std::string(kDescriptions));
     }
     Content(node, "info item", false);
     std::set<std::string> names;
@@ -144,8 +144,8 @@ class EmotionChecker {
     Version(node);
     Times(node);
     Sets(node);
-    Content(node, "info reference " + std::string(kTypes), true);
-    const auto described = Own(node, kTypes);
+    Content(node, "info reference " + std::string(kDescriptions), true);
+    const auto described = Own(node, kDescriptions);
     std::map<std::string, std::set<std::string>> names;
     for (const auto* part : described) {
       Describe(node, *part);
@@ -155,7 +155,7 @@ class EmotionChecker {
     }
     for (const auto* reference : Own(node, "reference")) Reference(*reference);
     if (described.empty())
-      Say(node, "an <emotion> that describes nothing", "one of " + std::string(kTypes));
+      Say(node, "an <emotion> that describes nothing", "one of " + std::string(kDescriptions));
   }
 
   void Times(const vm::xml::Node& node) {
@@ -191,7 +191,7 @@ class EmotionChecker {
   }
 
   void Sets(const vm::xml::Node& node) {
-    for (const std::string_view type : SplitWords(kTypes)) {
+    for (const std::string_view type : SplitWords(kDescriptions)) {
       const std::string* uri = node.Find(std::string(type) + "-set");
       if (!uri) continue;
       Uri(node, (std::string(type) + "-set").c_str());

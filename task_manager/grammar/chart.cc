@@ -6,9 +6,10 @@
 #include "task_manager/grammar/text.h"
 
 namespace vxml::srgs {
-namespace {
 
 using Kind = Expansion::Kind;
+
+namespace {
 
 bool IsLeaf(const Expansion& node) {
   return node.children.empty() && node.kind != Kind::kReference;

@@ -8,9 +8,10 @@
 #include "task_manager/grammar/chart.h"
 
 namespace vxml::srgs {
-namespace {
 
 using Kind = Expansion::Kind;
+
+namespace {
 
 /// The part of the input, in places, that an expansion takes.
 struct Span {

@@ -4,9 +4,10 @@
 #include <vector>
 
 namespace vxml::srgs {
-namespace {
 
 using Kind = Expansion::Kind;
+
+namespace {
 
 class Writer {
  public:

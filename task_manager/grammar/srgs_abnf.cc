@@ -5,9 +5,11 @@
 #include "task_manager/grammar/compiler.h"
 
 namespace vxml::srgs {
-namespace {
 
 using Kind = Expansion::Kind;
+
+namespace {
+
 using Made = vm::Result<std::unique_ptr<Expansion>>;
 
 class AbnfCompiler {
