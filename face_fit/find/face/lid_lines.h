@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "face_fit/find/network/found_face.h"
+#include "face_fit/image/plane.h"
 
 namespace facefit {
 
@@ -40,40 +40,37 @@ struct LidHeights {
 /// in pixels (y down) and in millimetres (y up).
 class LidLines {
  public:
-  explicit LidLines(const EyePoints& points) : points_(points) {
+  explicit LidLines(const EyePoints& points) : origin_(points[0]) {
     const glm::vec2 axis = points[kInnerCorner] - points[0];
     width_ = std::max(glm::length(axis), 1e-3F);
     along_axis_ = axis / width_;
     down_axis_ = {-along_axis_.y, along_axis_.x};
     if (glm::dot(points[kLowerMiddle] - points[kUpperMiddle], down_axis_) < 0)
       down_axis_ = -down_axis_;
+    const auto in_eye = [this](glm::vec2 p) { return glm::vec2(Along(p), Down(p)); };
+    for (std::size_t k = 0; k <= kInnerCorner; ++k) {
+      upper_[k] = in_eye(points[k]);
+      lower_[k] = in_eye(points[(points.size() - k) % points.size()]);
+    }
   }
   float width() const { return width_; }
   glm::vec2 along_axis() const { return along_axis_; }  ///< unit
   glm::vec2 down_axis() const { return down_axis_; }    ///< unit
 
-  float Along(glm::vec2 p) const { return glm::dot(p - points_[0], along_axis_) / width_; }
-  float Down(glm::vec2 p) const { return glm::dot(p - points_[0], down_axis_); }
+  float Along(glm::vec2 p) const { return glm::dot(p - origin_, along_axis_) / width_; }
+  float Down(glm::vec2 p) const { return glm::dot(p - origin_, down_axis_); }
   glm::vec2 PointAt(float along, float down) const {
-    return points_[0] + along * width_ * along_axis_ + down * down_axis_;
+    return origin_ + along * width_ * along_axis_ + down * down_axis_;
   }
   LidHeights LidsAt(float along) const {
-    const auto between = [this, along](std::size_t a, std::size_t b) {
-      const float from = Along(points_[a]), to = Along(points_[b % points_.size()]);
-      const float share = glm::clamp((along - from) / std::max(to - from, 1e-4F), 0.0F, 1.0F);
-      return glm::mix(Down(points_[a]), Down(points_[b % points_.size()]), share);
-    };
-    std::size_t upper = 1, lower = points_.size() - 1;
-    while (upper < kInnerCorner && Along(points_[upper]) < along) ++upper;
-    while (lower > kInnerCorner && Along(points_[lower]) < along) --lower;
-    return {between(upper - 1, upper),
-            lower + 1 == points_.size() ? between(0, lower) : between(lower + 1, lower)};
+    return {HeightAt<glm::vec2>(upper_, along), HeightAt<glm::vec2>(lower_, along)};
   }
 
  private:
-  EyePoints points_;
+  glm::vec2 origin_;  // the outer corner
   float width_ = 1;
   glm::vec2 along_axis_, down_axis_;
+  std::array<glm::vec2, kInnerCorner + 1> upper_, lower_;  // along and down, from corner to corner
 };
 
 }  // namespace facefit
