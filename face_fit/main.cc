@@ -14,11 +14,14 @@
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/head/head_finder.h"
 #include "face_fit/find/network/face_networks.h"
+#include "face_fit/image/filters.h"
 #include "face_fit/image/photo.h"
 #include "face_fit/make_face.h"
-#include "face_fit/original_face.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
+#include "fsm/faces/original_config.h"
+#include "fsm/image/image_file.h"
+#include "fsm/mesh/original/pnt_file.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -163,14 +166,32 @@ void MakeFaceOfPhoto(const Options& options) {
   MakeAndWriteFace(options, models, front->photo, RequireFace(options, *front), progress);
 }
 
+/// Returns the files of the face in the original's configuration; throws std::runtime_error if it
+/// has no such face.
+fsm::OriginalFaceFiles FilesOfOriginal(const Options& options) {
+  const auto config = vm::OrThrow(fsm::OriginalConfig::Read(options.galatea));
+  std::string names;
+  for (const auto& face : config.faces) {
+    if (face.name == options.name) return face;
+    names += " " + face.name;
+  }
+  throw std::runtime_error(options.galatea + " has no face '" + options.name + "'; it has" +
+                           (names.empty() ? " none" : ":" + names));
+}
+
 void MakeFaceOfOriginal(const Options& options) {
   const Progress progress(options.quiet);
-  facefit::OriginalFace original = facefit::ReadOriginalFace(options.galatea, options.name);
+  const auto files = FilesOfOriginal(options);
+  // Points refer to a photo of at most that size.
+  fsm::Image photo =
+      facefit::ScaledToFit(vm::OrThrow(fsm::ReadImage(files.picture)), facefit::kWorkingSize);
+  const auto points = vm::OrThrow(facefit::PointsOfWireframe(
+      files.wireframe, vm::OrThrow(fsm::ReadPnt(files.wireframe)), photo.width, photo.height));
   progress("photo read");
   FaceModels models = LoadFaceModels(options, progress);
   const auto front =
-      vm::OrThrow(facefit::PrepareFront(models.networks, models.base, std::move(original.photo),
-                                        original.points, facefit::PhotoExtent::kWhole, progress));
+      vm::OrThrow(facefit::PrepareFront(models.networks, models.base, std::move(photo), points,
+                                        facefit::PhotoExtent::kWhole, progress));
   MakeAndWriteFace(options, models, front.photo, front.face.value(), progress);
 }
 
