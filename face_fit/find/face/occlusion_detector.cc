@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -25,7 +24,8 @@ constexpr std::size_t kPixels =
     static_cast<std::size_t>(kLandmarkInputPixels) * kLandmarkInputPixels;
 
 struct Ellipse {
-  glm::vec2 middle, radii;  // millimetres on the built-in face: x to its left, y up
+  // Millimetres on the built-in face: x to its left, y up.
+  glm::vec2 middle{0}, radii{0};
 };
 
 /// A patch of the face, and the increase of the network's certainty (a logit) that it may cause
@@ -37,21 +37,20 @@ struct FacePatch {
   float limit;
   std::array<Ellipse, 3> ellipses;
 };
-constexpr Ellipse kNone{{0, 0}, {0, 0}};
 constexpr FacePatch kPatches[] = {
     // clang-format off
-    {"the right eye",               2.1F, {{{{-31, 27}, {24, 19}}, kNone, kNone}}},
-    {"the left eye",                2.1F, {{{{31, 27}, {24, 19}}, kNone, kNone}}},
+    {"the right eye",               2.1F, {{{{-31, 27}, {24, 19}}}}},
+    {"the left eye",                2.1F, {{{{31, 27}, {24, 19}}}}},
     {"both eyes",                   2.8F, {{{{-31, 27}, {26, 19}}, {{31, 27}, {26, 19}}, {{0, 27}, {20, 14}}}}},
-    {"the nose",                    2.0F, {{{{0, 0}, {19, 30}}, kNone, kNone}}},
-    {"the mouth",                   3.6F, {{{{0, -44}, {34, 17}}, kNone, kNone}}},
-    {"the right cheek",             2.8F, {{{{-42, -18}, {22, 28}}, kNone, kNone}}},
-    {"the left cheek",              2.8F, {{{{42, -18}, {22, 28}}, kNone, kNone}}},
-    {"the chin",                    2.4F, {{{{0, -72}, {36, 18}}, kNone, kNone}}},
-    {"mouth and chin",              5.4F, {{{{0, -56}, {42, 32}}, kNone, kNone}}},
-    {"nose, mouth, cheeks and chin", 7.2F, {{{{0, -45}, {64, 50}}, {{0, -5}, {50, 25}}, kNone}}},
-    {"the right side of the face",  7.4F, {{{{-36, -5}, {32, 70}}, kNone, kNone}}},
-    {"the left side of the face",   7.4F, {{{{36, -5}, {32, 70}}, kNone, kNone}}},
+    {"the nose",                    2.0F, {{{{0, 0}, {19, 30}}}}},
+    {"the mouth",                   3.6F, {{{{0, -44}, {34, 17}}}}},
+    {"the right cheek",             2.8F, {{{{-42, -18}, {22, 28}}}}},
+    {"the left cheek",              2.8F, {{{{42, -18}, {22, 28}}}}},
+    {"the chin",                    2.4F, {{{{0, -72}, {36, 18}}}}},
+    {"mouth and chin",              5.4F, {{{{0, -56}, {42, 32}}}}},
+    {"nose, mouth, cheeks and chin", 7.2F, {{{{0, -45}, {64, 50}}, {{0, -5}, {50, 25}}}}},
+    {"the right side of the face",  7.4F, {{{{-36, -5}, {32, 70}}}}},
+    {"the left side of the face",   7.4F, {{{{36, -5}, {32, 70}}}}},
     // clang-format on
 };
 /// Certainty (a logit) below which a face counts as hidden; the least of the same images was
@@ -172,19 +171,7 @@ float PatchWeight(const FacePatch& patch, glm::vec2 on_face) {
   return weight;
 }
 
-/// Ranks patches: first by logits above their limit, then by the share of it that they reach.
-struct Excess {
-  float logits_above = 0, limit_share = -std::numeric_limits<float>::infinity();
-  auto operator<=>(const Excess&) const = default;
-};
-
 }  // namespace
-
-Occlusion Occlusion::Of(float patch_excess, std::string patch, float doubt) {
-  Occlusion occlusion{std::max(patch_excess, doubt), std::move(patch)};
-  if (doubt >= kMaybeCovered && patch_excess < kMaybeCovered) occlusion.part_name.reset();
-  return occlusion;
-}
 
 Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, const FoundFace& face,
                           const fsm::Image& photo) {
@@ -194,9 +181,8 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
   const std::vector<float> network_pixels = face.crop.Sample(photo, kLandmarkInputPixels, 0, 1);
   const float before = certainty_of(network_pixels);
   const WarpedHead warped = MatchSkinColour(network_pixels, WarpBuiltInHead(base, face));
-  float most_share = 0;
+  float most_share = 0, most = -std::numeric_limits<float>::infinity();
   const char* part_name = "";
-  Excess most;
   for (const FacePatch& patch : kPatches) {
     std::vector<float> changed = network_pixels;
     for (std::size_t i = 0; i < kPixels; ++i) {
@@ -209,13 +195,16 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
     const float certainty_gain = certainty_of(changed) - before;
     const float share = certainty_gain / patch.limit;
     most_share = std::max(most_share, share);
-    const Excess excess{share >= 1 ? std::max(certainty_gain - patch.limit, 0.0F) : 0,
-                        std::min(share, 1.0F)};
-    if (excess <= most) continue;
-    most = excess;
+    // Above their limits patches are ranked by logits.
+    const float rank = share < 1 ? share : 1 + certainty_gain - patch.limit;
+    if (rank <= most) continue;
+    most = rank;
     part_name = patch.name;
   }
-  return Occlusion::Of(most_share, part_name, kSureLogit / std::max(before, 1.0F));
+  const float doubt = kSureLogit / std::max(before, 1.0F);
+  Occlusion occlusion{std::max(most_share, doubt), part_name};
+  if (doubt >= kMaybeCovered && most_share < kMaybeCovered) occlusion.part_name.reset();
+  return occlusion;
 }
 
 }  // namespace facefit

@@ -23,10 +23,6 @@ struct Occlusion {
   /// The part of the face that resembles a face least, "the left cheek"; nothing where the network
   /// is less certain of the face than it should be, but no part explains that.
   std::optional<std::string> part_name;
-  /// Combines two measures. `patch_excess`: the gain in the network's certainty without the part
-  /// `patch`, divided by that part's limit; `doubt`: the least certainty of uncovered faces,
-  /// divided by this face's own.
-  static Occlusion Of(float patch_excess, std::string patch, float doubt);
 };
 
 /// Detects whether something hides part of a face. The landmark network reports how certain it is
