@@ -126,8 +126,7 @@ void Stage::Draw(const fsm::Viewport& pane, const fsm::FaceState& state) {
 
 std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::FittedHead& fitted) {
   const facefit::ObservedHead& base = *fitted.base;
-  std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : fitted.vertices) camera.push_back(fitted.pose.ToCamera(p));
+  const std::vector<glm::vec3> camera = fitted.pose.ToCamera(fitted.vertices);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   facefit::ForEachSkinTriangle(base.surface(), [&](const facefit::MeshTriangle& t) {
     const glm::vec3 n = t.Normal(camera);

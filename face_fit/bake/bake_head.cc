@@ -42,7 +42,7 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
   SkinMap map;
   for (std::size_t i = 0; i < texels.size(); ++i) {
     if (!texels[i] || !projections[i]) continue;
-    const auto& [p, facing] = *projections[i];
+    const auto& [p, z_mm, facing] = *projections[i];
     // Near the head's outline a texel shows more of what lies beside the head than of its skin.
     const float least =
         glm::mix(look.texel.face_from_cos, look.texel.side_from_cos, texels[i]->side_weight);
@@ -151,7 +151,7 @@ BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& 
   head.seen_from = fitted.pose.TowardsCamera();
   const SkinTexels texels = FindSkinTexels(*fitted.base);
   TexelProjections front = ProjectTexels(fitted, texels, fitted.pose);
-  HideSelfOccluded(fitted, texels, fitted.pose, front);
+  HideSelfOccluded(fitted, fitted.pose, front);
   SkinMap map = PaintPhoto(face, fitted, texels, front, figure.colours);
   for (const SideView& view : side_views) {
     BlendSideView(fitted, view, texels, front, map);

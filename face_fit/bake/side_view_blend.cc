@@ -53,7 +53,7 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
   for (std::size_t i = 0; i < side.size(); ++i) {
     if (!texels[i] || !side[i] || map.outside_openings[i] < 1) continue;
     // At a grazing angle a texel would be sampled from a line of pixels.
-    const auto& [pixel, facing] = *side[i];
+    const auto& [pixel, z_mm, facing] = *side[i];
     if (facing < look.facing_cos.from || !IsInside(colours, pixel)) continue;
     float& coverage = map.coverage[i];
     const float seen = look.facing_cos.Ramp(facing) *

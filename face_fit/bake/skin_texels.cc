@@ -20,20 +20,20 @@ namespace {
 /// throat.
 class SelfOcclusion {
  public:
-  SelfOcclusion(const FittedHead& fitted, const CameraPose& pose) : pose_(pose) {
+  SelfOcclusion(const FittedHead& fitted, const CameraPose& pose) {
     const glm::vec2 middle = pose.Project({0, 0, 0});
     const float reach = kReachMm * pose.PixelsPerMm();
     const float cell = 2 * reach / kCells;
     grid_ = {middle - reach, cell, kCells, kCells};
     nearest_ = VisibleSkin(fitted, pose, grid_, kNoBottom).depth();
   }
-  bool operator()(glm::vec3 in_camera) const {
-    const glm::vec2 cell = (pose_.Project(in_camera) - grid_.origin) / grid_.step + 0.5F;
+  bool operator()(const TexelProjection& texel) const {
+    const glm::vec2 cell = (texel.pixel - grid_.origin) / grid_.step + 0.5F;
     const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
     if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
     constexpr float kBehindMm = 5;
     return std::ranges::none_of(kAround, [&](glm::ivec2 offset) {
-      return nearest_(x + offset.x, y + offset.y) < in_camera.z + kBehindMm;
+      return nearest_(x + offset.x, y + offset.y) < texel.z_mm + kBehindMm;
     });
   }
 
@@ -41,7 +41,6 @@ class SelfOcclusion {
   static constexpr int kCells = 256;
   static constexpr float kReachMm = 180;
   static constexpr float kNoBottom = -1e9F;
-  const CameraPose& pose_;
   SampleGrid grid_{};
   FloatImage nearest_;
 };
@@ -139,27 +138,24 @@ SkinTexels FindSkinTexels(const ObservedHead& base) {
 TexelProjections ProjectTexels(const FittedHead& fitted, const SkinTexels& texels,
                                const CameraPose& pose) {
   constexpr glm::vec3 kCameraPosition(0, 0, kCameraDepthMm);
-  std::vector<glm::vec3> in_camera;
-  for (const glm::vec3& p : fitted.vertices) in_camera.push_back(pose.ToCamera(p));
+  const std::vector<glm::vec3> in_camera = pose.ToCamera(fitted.vertices);
   const std::vector<glm::vec3> normal = SkinNormals(fitted.base->surface(), in_camera);
   TexelProjections out(texels.width, texels.height);
   for (std::size_t i = 0; i < texels.size(); ++i) {
     if (!texels[i]) continue;
     const glm::vec3 q = texels[i]->on_mesh.On(in_camera);
     const glm::vec3 n = texels[i]->on_mesh.On(normal) + glm::vec3(0, 0, 1e-9F);
-    out[i] = TexelProjection{pose.Project(q),
+    out[i] = TexelProjection{pose.Project(q), q.z,
                              glm::dot(glm::normalize(n), glm::normalize(kCameraPosition - q))};
   }
   return out;
 }
 
-void HideSelfOccluded(const FittedHead& fitted, const SkinTexels& texels, const CameraPose& pose,
+void HideSelfOccluded(const FittedHead& fitted, const CameraPose& pose,
                       TexelProjections& projections) {
   const SelfOcclusion hides(fitted, pose);
-  std::vector<glm::vec3> in_camera;
-  for (const glm::vec3& p : fitted.vertices) in_camera.push_back(pose.ToCamera(p));
-  for (std::size_t i = 0; i < texels.size(); ++i) {
-    if (texels[i] && hides(texels[i]->on_mesh.On(in_camera))) projections[i].reset();
+  for (auto& texel : projections.values) {
+    if (texel && hides(*texel)) texel.reset();
   }
 }
 

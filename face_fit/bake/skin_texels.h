@@ -41,6 +41,7 @@ SkinTexels FindSkinTexels(const ObservedHead& base);
 /// Where a photo shows a texel.
 struct TexelProjection {
   glm::vec2 pixel;
+  float z_mm;    ///< depth, camera's frame
   float facing;  ///< cosine of the normal's angle to the camera
   bool operator==(const TexelProjection&) const = default;
 };
@@ -52,8 +53,8 @@ using TexelProjections = Raster<std::optional<TexelProjection>>;
 TexelProjections ProjectTexels(const FittedHead& fitted, const SkinTexels& texels,
                                const CameraPose& pose);
 /// Removes texels that the head itself hides, as the jaw hides the throat. `projections`:
-/// ProjectTexels of the other arguments.
-void HideSelfOccluded(const FittedHead& fitted, const SkinTexels& texels, const CameraPose& pose,
+/// ProjectTexels with the other arguments.
+void HideSelfOccluded(const FittedHead& fitted, const CameraPose& pose,
                       TexelProjections& projections);
 
 }  // namespace facefit

@@ -20,6 +20,12 @@ glm::mat3 CameraPose::Rotation() const {
   return z * x * y;
 }
 glm::vec3 CameraPose::ToCamera(glm::vec3 p) const { return Rotation() * (p - kMiddle) + kMiddle; }
+std::vector<glm::vec3> CameraPose::ToCamera(std::span<const glm::vec3> positions) const {
+  const glm::mat3 rotation = Rotation();
+  std::vector<glm::vec3> in_camera;
+  for (const glm::vec3& p : positions) in_camera.push_back(rotation * (p - kMiddle) + kMiddle);
+  return in_camera;
+}
 glm::vec3 CameraPose::FromCamera(glm::vec3 q) const {
   return glm::transpose(Rotation()) * (q - kMiddle) + kMiddle;
 }
@@ -34,11 +40,8 @@ glm::vec3 CameraPose::Unproject(glm::vec2 pixel, float z) const {
   return {d.x, -d.y, z};
 }
 std::vector<glm::vec3> CameraPose::ToScreen(std::span<const glm::vec3> positions) const {
-  std::vector<glm::vec3> screen;
-  for (const glm::vec3& p : positions) {
-    const glm::vec3 q = ToCamera(p);
-    screen.emplace_back(Project(q), q.z);
-  }
+  std::vector<glm::vec3> screen = ToCamera(positions);
+  for (glm::vec3& q : screen) q = glm::vec3(Project(q), q.z);
   return screen;
 }
 float CameraPose::PixelsPerMm() const { return focal_px / (kCameraDepthMm - kFaceDepthMm); }

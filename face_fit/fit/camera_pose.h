@@ -40,6 +40,7 @@ struct CameraPose {
   glm::mat3 Rotation() const;
   /// From the head's frame to the camera's, and back.
   glm::vec3 ToCamera(glm::vec3 p) const;
+  std::vector<glm::vec3> ToCamera(std::span<const glm::vec3> positions) const;
   glm::vec3 FromCamera(glm::vec3 q) const;
   /// Returns the direction from the head to the camera, head's frame, unit.
   glm::vec3 TowardsCamera() const;

@@ -65,7 +65,7 @@ std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
                                                        const CameraPose& pose,
                                                        std::vector<ComparedPoint> points) {
   fsm::HeadVertices turned;
-  for (const glm::vec3& p : fitted.vertices) turned.position.push_back(pose.ToCamera(p));
+  turned.position = pose.ToCamera(fitted.vertices);
   turned.normal =
       fsm::Normals(fitted.base->surface().indices, turned.position, turned.position.size());
   const PortraitView portrait(kDrawnSize);

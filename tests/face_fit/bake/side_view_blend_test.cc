@@ -31,7 +31,7 @@ class SideViewBlendTest : public NetworkTest {
     Fill(view_.figure.colours, [](glm::vec2) { return kSkin; });
     texels_ = FindSkinTexels(Galatea());
     front_ = ProjectTexels(fitted_, texels_, fitted_.pose);
-    HideSelfOccluded(fitted_, texels_, fitted_.pose, front_);
+    HideSelfOccluded(fitted_, fitted_.pose, front_);
     Fill(map_.image, [](glm::vec2) { return kSkin; });
   }
   FoundFace FaceIn(const CameraPose& pose) const {

@@ -30,7 +30,7 @@ class SmileShadeTest : public NetworkTest {
       texels_ = FindSkinTexels(Galatea());
       const FittedHead fitted = Fitted();
       projections_ = ProjectTexels(fitted, *texels_, fitted.pose);
-      HideSelfOccluded(fitted, *texels_, fitted.pose, projections_);
+      HideSelfOccluded(fitted, fitted.pose, projections_);
     }
     map_ = {.width = kMapSize, .height = kMapSize, .rgba = {}};
     for (std::size_t i = 0; i < texels_->size(); ++i) {
@@ -83,9 +83,9 @@ TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
   aside.rotation_rad.y = 0.9F;
   const TexelProjections all = ProjectTexels(fitted, *texels_, aside);
   TexelProjections seen = all, fitted_so = all;
-  HideSelfOccluded(fitted, *texels_, aside, seen);
+  HideSelfOccluded(fitted, aside, seen);
   fitted.pose = aside;
-  HideSelfOccluded(fitted, *texels_, aside, fitted_so);
+  HideSelfOccluded(fitted, aside, fitted_so);
   EXPECT_TRUE(seen.values == fitted_so.values);
 }
 
