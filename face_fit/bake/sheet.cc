@@ -125,18 +125,14 @@ class DrawnCells {
         holes_(fitted),
         within_(Blurred(WithoutHoles(skin.covered), skin.rim)) {}
   bool Has(glm::ivec2 cell) const {
-    return IsShown(cell) && !All(cell, [this](glm::ivec2 p) { return IsHidden(p); }) &&
-           !IsInMouth(cell);
+    const auto hidden = [&](glm::ivec2 corner) { return IsHidden(cell + corner); };
+    return IsShown(cell) && !std::ranges::all_of(kCellCorners, hidden) && !IsInMouth(cell);
   }
 
  private:
   static Mask WithoutHoles(Mask covered) {
     FillHoles(covered);
     return covered;
-  }
-  static bool All(glm::ivec2 cell, auto holds) {
-    return std::ranges::all_of(kCellCorners,
-                               [&](glm::ivec2 corner) { return holds(cell + corner); });
   }
   glm::vec3 PositionOf(glm::ivec2 p) const {
     return pose_.PositionOf(grid_.Point(p.x, p.y), depth_(p.x, p.y));

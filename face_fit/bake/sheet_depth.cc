@@ -34,50 +34,33 @@ FloatImage FillBySoapFilm(const Mask& fixed, FloatImage depth) {
   return depth;
 }
 
-/// Depth below the inner skin.
-class UnderSkinDepth {
- public:
-  UnderSkinDepth(const Chin& chin, const SkinOnGrid& skin) : chin_(chin), skin_(skin) {}
-  /// `position`: approximate, of the grid's point, head's frame.
-  float DepthAt(std::size_t i, glm::vec3 position) const {
-    // The sheet continues the skin at its edge and keeps a distance farther in.
-    const float inward = fsm::SmoothStep(kInnerWithin, kDeepWithin, skin_.within[i]);
-    const auto& look = PhotoLook().sheet;
-    const float under =
-        skin_.depth[i] - glm::mix(look.under_skin_edge_mm, look.under_skin_mm, inward);
-    // The neck lies behind the lower face, with room for the jaw to open.
-    return glm::mix(under, std::min(under, look.before_neck_most_mm),
-                    chin_.BeforeNeckShare(position)) -
-           look.below_chin_back_mm * chin_.BelowShare(position);
-  }
+/// Returns the depth below the inner skin. `position`: approximate, of the grid's point `i`, head's
+/// frame.
+float UnderSkinDepth(const Chin& chin, const SkinOnGrid& skin, std::size_t i, glm::vec3 position) {
+  // The sheet continues the skin at its edge and keeps a distance farther in.
+  const float inward = fsm::SmoothStep(kInnerWithin, kDeepWithin, skin.within[i]);
+  const auto& look = PhotoLook().sheet;
+  const float under = skin.depth[i] - glm::mix(look.under_skin_edge_mm, look.under_skin_mm, inward);
+  // The neck lies behind the lower face, with room for the jaw to open.
+  return glm::mix(under, std::min(under, look.before_neck_most_mm),
+                  chin.BeforeNeckShare(position)) -
+         look.below_chin_back_mm * chin.BelowShare(position);
+}
 
- private:
-  const Chin& chin_;
-  const SkinOnGrid& skin_;
-};
-
-/// Depth at the outline and beyond it; on the outline alone it would depend on which points of the
-/// grid lie inside.
-class OutlineDepth {
- public:
-  OutlineDepth(const Chin& chin, const SkinOnGrid& skin)
-      : chin_(chin), beside_(skin.depth, skin.inner, skin.rim) {}
-  /// `position`: as in UnderSkinDepth.
-  float DepthAt(std::size_t i, glm::vec3 position) const {
-    // Hair lies before the ears, shoulders in their plane. Beside the cheek the sheet stays near
-    // its depth, or the sheet's last pixels would be stretched.
-    const auto& look = PhotoLook().sheet;
-    const float outline = glm::mix(
-        look.hair_depth_mm, look.shoulder_depth_mm,
-        fsm::SmoothStep(chin_.height(), chin_.height() - look.shoulders_below_chin_mm, position.y));
-    const float cheek = beside_.MeanAt(i) - look.most_step_back_mm;
-    return glm::mix(outline, std::max(cheek, outline), kFadeDepth.Ramp(beside_.weight[i]));
-  }
-
- private:
-  const Chin& chin_;
-  WeightedBlur<float> beside_;  // depth of inner skin nearby
-};
+/// Returns the depth at the outline and beyond it; on the outline alone it would depend on which
+/// points of the grid lie inside. `beside`: depth of inner skin nearby; `i`, `position`: as for
+/// UnderSkinDepth.
+float OutlineDepth(const Chin& chin, const WeightedBlur<float>& beside, std::size_t i,
+                   glm::vec3 position) {
+  // Hair lies before the ears, shoulders in their plane. Beside the cheek the sheet stays near
+  // its depth, or the sheet's last pixels would be stretched.
+  const auto& look = PhotoLook().sheet;
+  const float outline = glm::mix(
+      look.hair_depth_mm, look.shoulder_depth_mm,
+      fsm::SmoothStep(chin.height(), chin.height() - look.shoulders_below_chin_mm, position.y));
+  const float cheek = beside.MeanAt(i) - look.most_step_back_mm;
+  return glm::mix(outline, std::max(cheek, outline), kFadeDepth.Ramp(beside.weight[i]));
+}
 
 }  // namespace
 
@@ -94,8 +77,7 @@ SkinOnGrid::SkinOnGrid(const VisibleSurface& surface, int rim_cells)
 
 FloatImage SheetDepth(const CameraPose& pose, const SampleGrid& grid, const Chin& chin,
                       const SkinOnGrid& skin, const Mask& shown) {
-  const UnderSkinDepth under_skin(chin, skin);
-  const OutlineDepth at_outline(chin, skin);
+  const WeightedBlur<float> beside(skin.depth, skin.inner, skin.rim);
   FloatImage depth(grid.columns, grid.rows);
   Mask fixed(grid.columns, grid.rows);
   ForEachPixel(grid.columns, grid.rows, [&](int x, int y, std::size_t i) {
@@ -103,7 +85,8 @@ FloatImage SheetDepth(const CameraPose& pose, const SampleGrid& grid, const Chin
     const bool inner = skin.inner[i] > 0;
     const bool outside = skin.covered[i] <= 0 && shown[i] < PhotoLook().sheet.shown_from_share;
     if (!inner && !outside) return;
-    depth[i] = inner ? under_skin.DepthAt(i, position) : at_outline.DepthAt(i, position);
+    depth[i] =
+        inner ? UnderSkinDepth(chin, skin, i, position) : OutlineDepth(chin, beside, i, position);
     fixed[i] = 1;
   });
   const FloatImage spanned = FillBySoapFilm(fixed, std::move(depth));
