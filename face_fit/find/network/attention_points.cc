@@ -2,7 +2,6 @@
 
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/find/network/face_networks.h"
-#include "face_fit/tflite/operators.h"
 
 namespace facefit {
 namespace {
@@ -66,7 +65,7 @@ AttentiveFace AttentionNetwork::Find(const fsm::Image& image, const NetworkCrop&
   };
   AttentiveFace found;
   found.face.crop = crop;
-  found.face.certainty = tflite::op::Logistic::Apply(network_.output(kCertainty)[0]);
+  found.face.certainty = Probability(network_.output(kCertainty)[0]);
   found.face.points = PointsInImage(PointsOf(network_.output(kPoints)), crop);
   const auto refine = [&](AttentionOutput output, std::span<const PointIndex> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -6,7 +6,6 @@
 
 #include "face_fit/find/network/face_networks.h"
 #include "face_fit/image/plane.h"
-#include "face_fit/tflite/operators.h"
 #include "fsm/image/shrink.h"
 
 namespace facefit {
@@ -108,7 +107,7 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
   for (int pass = 0; pass < 3; ++pass) {
     if (pass > 0) face.crop = CropAround(face.points, face.crop.angle_rad);
     const Landmarks found = networks.Locate(face.crop.Sample(image, kLandmarkInputPixels, 0, 1));
-    face.certainty = tflite::op::Logistic::Apply(found.certainty_logit);
+    face.certainty = Probability(found.certainty_logit);
     face.points = PointsInImage(found.points, face.crop);
   }
   return face;

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "face_fit/tflite/operators.h"
 #include "fsm/image/byte_order.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/core/user_folder.h"
@@ -83,16 +82,25 @@ struct FaceMeshPackage {
   }
 };
 
-std::unexpected<vm::Error> FailMissing(const std::string& where) {
+/// Returns what `open(where)` makes of the files of a folder. It returns nothing if one is missing
+/// and throws if one cannot be used. `folder`: as for FaceNetworks::Load.
+auto OpenNetworks(const std::string& folder, auto open)
+    -> vm::Result<typename decltype(open(folder))::value_type> {
+  const std::string own = vm::Environment("GALATEA_NETWORKS");
+  const std::string where = !folder.empty() ? folder
+                            : !own.empty()
+                                ? own
+                                : vm::UserFolder("XDG_CACHE_HOME", ".cache") + "/networks";
+  try {
+    if (auto opened = open(where)) return std::move(*opened);
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "the networks in '" + where + "' cannot be used: " + error.what());
+  }
   return vm::Fail(vm::Errc::kUnavailable,
                   "the networks that find faces are not in '" + where +
                       "'; scripts/face_networks.sh puts them there (npm packages "
                       "@mediapipe/face_mesh and @mediapipe/selfie_segmentation)");
-}
-
-std::unexpected<vm::Error> FailUnusable(const std::string& where, const std::exception& error) {
-  return vm::Fail(vm::Errc::kBadValue,
-                  "the networks in '" + where + "' cannot be used: " + error.what());
 }
 
 /// Checks a network's shapes. `side`: of its square input, pixels; `outputs`: count of the numbers
@@ -109,27 +117,19 @@ tflite::Network Expect(tflite::Network network, std::size_t side,
 
 }  // namespace
 
-std::string NetworksFolder() {
-  const std::string own = vm::Environment("GALATEA_NETWORKS");
-  return own.empty() ? vm::UserFolder("XDG_CACHE_HOME", ".cache") + "/networks" : own;
-}
-
 vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
-  const std::string where = folder.empty() ? NetworksFolder() : folder;
-  const auto package = FaceMeshPackage::Read(where);
-  const auto figure =
-      vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMaxBytes);
-  if (!package || !figure) return FailMissing(where);
-  try {
+  return OpenNetworks(folder, [](const std::string& where) -> std::optional<FaceNetworks> {
+    const auto package = FaceMeshPackage::Read(where);
+    const auto figure =
+        vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMaxBytes);
+    if (!package || !figure) return std::nullopt;
     return FaceNetworks(Expect(package->Open("face_detection_short_range.tflite"), kDetectorPixels,
                                {kDetectorCells * kBoxNumbers, kDetectorCells}),
                         Expect(package->Open("face_landmark.tflite"), kLandmarkInputPixels,
                                {3 * kNetworkPoints, 1}),
                         Expect(tflite::Network(tflite::Model::Read(fsm::BytesOf(*figure))),
                                kSegmentationPixels, {kSegmentationPixels * kSegmentationPixels}));
-  } catch (const std::exception& error) {
-    return FailUnusable(where, error);
-  }
+  });
 }
 
 std::vector<FaceBox> FaceNetworks::Detect(std::span<const float> pixels) {
@@ -138,7 +138,7 @@ std::vector<FaceBox> FaceNetworks::Detect(std::span<const float> pixels) {
   const auto boxes = detector_.output(kDetectorBoxes), scores = detector_.output(kDetectorScores);
   std::vector<FaceBox> found;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
-    const float score = tflite::op::Logistic::Apply(scores[i]);
+    const float score = Probability(scores[i]);
     if (!(score >= kMinScore)) continue;
     const auto pair = [box = boxes.subspan(kBoxNumbers * i)](DetectorBox k) {
       return glm::vec2(box[k], box[k + 1]) / float{kDetectorPixels};
@@ -166,14 +166,11 @@ Mask FaceNetworks::SegmentPerson(std::span<const float> pixels) {
 vm::Result<tflite::Network> ReadFaceMeshNetwork(const std::string& folder, const char* name,
                                                 std::size_t side,
                                                 std::initializer_list<std::size_t> outputs) {
-  const std::string where = folder.empty() ? NetworksFolder() : folder;
-  const auto package = FaceMeshPackage::Read(where);
-  if (!package) return FailMissing(where);
-  try {
+  return OpenNetworks(folder, [=](const std::string& where) -> std::optional<tflite::Network> {
+    const auto package = FaceMeshPackage::Read(where);
+    if (!package) return std::nullopt;
     return Expect(package->Open(name), side, outputs);
-  } catch (const std::exception& error) {
-    return FailUnusable(where, error);
-  }
+  });
 }
 
 PerPoint<glm::vec3> PointsOf(std::span<const float> output) {

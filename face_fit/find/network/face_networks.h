@@ -12,6 +12,7 @@
 #include "face_fit/find/network/network_points.h"
 #include "face_fit/image/raster.h"
 #include "face_fit/tflite/network.h"
+#include "face_fit/tflite/operators.h"
 #include "vm_protocol/core/result.h"
 
 namespace facefit {
@@ -38,8 +39,9 @@ struct Landmarks {
 /// Apache-2.0). Each looks at a square of RGB pixels. Thread: one at a time.
 class FaceNetworks {
  public:
-  /// Loads them from the unpacked packages in `folder`; "" = NetworksFolder(). Errors: kUnavailable
-  /// (says how to install them), kBadValue (the files are damaged).
+  /// Loads them from the unpacked packages in `folder`; "" = $GALATEA_NETWORKS, else
+  /// $XDG_CACHE_HOME/galatea/networks, else ~/.cache/galatea/networks. Errors: kUnavailable (says
+  /// how to install them), kBadValue (the files are damaged).
   static vm::Result<FaceNetworks> Load(const std::string& folder);
 
   /// Returns boxes with a score of at least 0.5, several of each face. `pixels`: kDetectorPixels,
@@ -67,8 +69,7 @@ vm::Result<tflite::Network> ReadFaceMeshNetwork(const std::string& folder, const
 /// Returns the points of an output: x, y, z of each in pixels of a square of kLandmarkInputPixels.
 PerPoint<glm::vec3> PointsOf(std::span<const float> output);
 
-/// Returns $GALATEA_NETWORKS, else $XDG_CACHE_HOME/galatea/networks, else
-/// ~/.cache/galatea/networks.
-std::string NetworksFolder();
+/// Returns the probability, 0..1, that a network gives as a logit.
+inline float Probability(float logit) { return tflite::op::Logistic::Apply(logit); }
 
 }  // namespace facefit
