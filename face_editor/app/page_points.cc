@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "face_editor/app/ui.h"
-#include "face_fit/side/side_view.h"
+#include "face_fit/side/use_side_photos.h"
 
 namespace editor {
 namespace {

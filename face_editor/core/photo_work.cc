@@ -8,7 +8,7 @@
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/image/photo.h"
-#include "face_fit/side/side_view.h"
+#include "face_fit/side/use_side_photos.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/head/make_head.h"

@@ -12,12 +12,12 @@
 #include "face_fit/bake/mirroring.h"
 #include "face_fit/bake/openings.h"
 #include "face_fit/bake/sheet.h"
-#include "face_fit/bake/side_view_blend.h"
 #include "face_fit/bake/skin_colours.h"
 #include "face_fit/bake/skin_map.h"
 #include "face_fit/bake/skin_texels.h"
 #include "face_fit/bake/smile_folds.h"
 #include "face_fit/bake/smile_shade.h"
+#include "face_fit/bake/turned_view_blend.h"
 #include "face_fit/fit/eye_fit.h"
 #include "face_fit/fit/pixel_warp.h"
 #include "face_fit/image/filters.h"
@@ -144,7 +144,7 @@ void SetSheet(Sheet sheet, fsm::PhotoHead& head) {
 
 BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
                    const FigureCutout& figure, const CompletedFigure& whole,
-                   std::span<const SideView> side_views, bool glasses) {
+                   std::span<const TurnedView> turned_views, bool glasses) {
   const FittedHead& fitted = fit.head;
   fsm::PhotoHead head = HeadOf(fitted);
   head.glasses = glasses;
@@ -153,8 +153,8 @@ BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& 
   TexelProjections front = ProjectTexels(fitted, texels, fitted.pose);
   HideSelfOccluded(fitted, fitted.pose, front);
   SkinMap map = PaintPhoto(face, fitted, texels, front, figure.colours);
-  for (const SideView& view : side_views) {
-    BlendSideView(fitted, view, texels, front, map);
+  for (const TurnedView& view : turned_views) {
+    BlendTurnedView(fitted, view, texels, front, map);
     head.also_seen.push_back(view.pose.TowardsCamera());
   }
   const float coverage = MeanCoverage(texels, map.coverage);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/complete/complete_figure.h"
-#include "face_fit/side/side_view.h"
+#include "face_fit/side/use_side_photos.h"
 #include "fsm/head/photo_head.h"
 
 namespace facefit {
@@ -13,10 +13,10 @@ struct BakedHead {
 };
 
 /// Bakes a photo onto a fitted head. `figure`: the figure in `photo`; `whole`: CompleteFigure of
-/// it; `side_views`: photos of the person from the side, may be empty; `glasses`: whether the
+/// it; `turned_views`: photos of the person from the side, may be empty; `glasses`: whether the
 /// person wears them. Pure; thread: any.
 BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
                    const FigureCutout& figure, const CompletedFigure& whole,
-                   std::span<const SideView> side_views, bool glasses);
+                   std::span<const TurnedView> turned_views, bool glasses);
 
 }  // namespace facefit

@@ -50,9 +50,9 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
 
 }  // namespace
 
-float Bust::HalfWidth(PhotoSide side, float row) const {
+float Bust::HalfWidth(SideEdge side, float row) const {
   const int y = std::clamp(static_cast<int>(row), 0, opacity.height - 1);
-  const int step = side == PhotoSide::kLeft ? -1 : 1;
+  const int step = side == SideEdge::kLeft ? -1 : 1;
   int x = std::clamp(static_cast<int>(axis), 0, opacity.width - 1);
   while (x >= 0 && x < opacity.width && opacity(x, y) > 0.5F) x += step;
   return std::max(std::abs(static_cast<float>(x) + 0.5F - axis), 1.0F);

@@ -194,9 +194,9 @@ std::vector<EdgeSampleWithHair> ReadTop(const EdgeReader& reader, glm::ivec2 siz
   return top;
 }
 
-std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoSide side, float chin_row,
+std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, SideEdge side, float chin_row,
                                          glm::ivec2 size, int band) {
-  const bool left = side == PhotoSide::kLeft;
+  const bool left = side == SideEdge::kLeft;
   std::vector<EdgeSampleWithHair> samples;
   for (int y = 0; y < size.y; ++y) {
     samples.push_back({reader.Sample({left ? 0 : size.x - band, y}, {band, 1}),
@@ -215,10 +215,10 @@ std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoSide sid
 /// Returns the mean colour of the figure at both sides above the chin. That is hair or hat even
 /// where it has the skin's brightness and hue, as grey and blond hair do. Returns darkened skin if
 /// the figure does not touch the sides.
-glm::vec3 HairBeside(const PerSide<std::vector<EdgeSampleWithHair>>& sides, float chin_row,
+glm::vec3 HairBeside(const PerSideEdge<std::vector<EdgeSampleWithHair>>& sides, float chin_row,
                      glm::vec3 skin_colour) {
   glm::vec4 sum(0);
-  for (const PhotoSide side : kPhotoSides) {
+  for (const SideEdge side : kSideEdges) {
     const auto& samples = sides[side];
     for (std::size_t y = 0; y < samples.size() && static_cast<float>(y) < chin_row; ++y) {
       if (samples[y].kind != EdgeKind::kNothing) sum += glm::vec4(samples[y].colour, 1);
@@ -246,7 +246,7 @@ PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure,
       glm::min(glm::ivec2(MmToPixels(PhotoLook().edge.band_mm, chin.pixels_per_mm)), size);
   bottom_ = ReadBottom(reader, chin, size, band.y);
   top_ = ReadTop(reader, size, band.y);
-  for (const PhotoSide side : kPhotoSides) {
+  for (const SideEdge side : kSideEdges) {
     sides_[side] = ReadSide(reader, side, chin.pixel.y, size, band.x);
   }
   hair_ = classifier.hair() ? *classifier.hair() : HairBeside(sides_, chin.pixel.y, skin_colour);

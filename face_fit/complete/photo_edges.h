@@ -34,7 +34,7 @@ class PhotoEdges {
   int height() const { return static_cast<int>(sides_.left.size()); }
   const EdgeSample& bottom(int x) const { return bottom_[static_cast<std::size_t>(x)]; }
   const EdgeSampleWithHair& top(int x) const { return top_[static_cast<std::size_t>(x)]; }
-  const EdgeSampleWithHair& side(PhotoSide side, int y) const {
+  const EdgeSampleWithHair& side(SideEdge side, int y) const {
     return sides_[side][static_cast<std::size_t>(y)];
   }
   /// Returns whether the figure touches the upper edge from corner to corner.
@@ -45,7 +45,7 @@ class PhotoEdges {
  private:
   std::vector<EdgeSample> bottom_;
   std::vector<EdgeSampleWithHair> top_;
-  PerSide<std::vector<EdgeSampleWithHair>> sides_;
+  PerSideEdge<std::vector<EdgeSampleWithHair>> sides_;
   glm::vec3 hair_;
 };
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/image/photo_side.h"
 #include "face_fit/image/raster.h"
+#include "face_fit/image/side_edge.h"
 
 namespace facefit {
 
@@ -20,7 +20,7 @@ inline constexpr float kMaxProfileGapMm = 4;
 
 /// Where an image shows the profile.
 struct ProfilePlacement {
-  PhotoSide towards = PhotoSide::kRight;  ///< the side that the face looks to
+  SideEdge towards = SideEdge::kRight;  ///< the side that the face looks to
   float pixels_per_mm = 1;
   float tilt_rad = 0;
   glm::vec2 pixel{0};   ///< the projection of `middle`

@@ -13,7 +13,7 @@ namespace facefit {
 class FaceNetworks;
 
 /// A photo of the person from the side from which the skin's map takes colours.
-struct SideView {
+struct TurnedView {
   FoundFace face;
   CameraPose pose;
   FigureCutout figure;
@@ -29,12 +29,11 @@ struct SidePhotoFit {
   FaceFit fit;
   /// Of turned faces. There is none of a full profile: front and profile show too little common
   /// skin to match their light.
-  std::vector<SideView> views;
+  std::vector<TurnedView> views;
   std::vector<RejectedPhoto> rejected;
 };
 /// Corrects the depth of a fit by photos of the person from the side, turned or in full profile.
-/// `front_photo`: the photo of the fit. Throws std::runtime_error if
-/// rendering is impossible.
+/// `front_photo`: the photo of the fit. Throws std::runtime_error if rendering is impossible.
 SidePhotoFit UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_photo,
                            std::span<const SidePhoto* const> side_photos, FaceFit fit);
 
