@@ -28,6 +28,20 @@ void FillWithBias(Inputs inputs, Tensor& out) {
   }
 }
 
+/// Rows and columns of zeros before the input.
+struct Padding {
+  int rows = 0, columns = 0;
+};
+Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, int filter_rows,
+                  int filter_columns) {
+  if (!window.same_padding) return {};
+  const auto before = [](int size_in, int size_out, int stride, int filter) {
+    return std::max((size_out - 1) * stride + filter - size_in, 0) / 2;
+  };
+  return {before(in.rows(), out.rows(), window.stride_rows, filter_rows),
+          before(in.columns(), out.columns(), window.stride_columns, filter_columns)};
+}
+
 /// Calls f(pixel, from, row, column) for pixels first to end - 1 of the output, counted row by row,
 /// and each tap (row, column) of the filter that lies within the input; `from` is the index of the
 /// first channel under the tap.
@@ -71,16 +85,6 @@ void SampleBilinear(const Tensor& in, float x, float y, float* to) {
 }
 
 }  // namespace
-
-Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, int filter_rows,
-                  int filter_columns) {
-  if (!window.same_padding) return {};
-  const auto before = [](int size_in, int size_out, int stride, int filter) {
-    return std::max((size_out - 1) * stride + filter - size_in, 0) / 2;
-  };
-  return {before(in.rows(), out.rows(), window.stride_rows, filter_rows),
-          before(in.columns(), out.columns(), window.stride_columns, filter_columns)};
-}
 
 void Run(const op::Convolution& convolution, Inputs inputs, Tensor& out) {
   const Tensor &in = *inputs[0], &filter = *inputs[1];

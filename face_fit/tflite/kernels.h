@@ -12,13 +12,6 @@ namespace facefit::tflite {
 /// The input tensors of a node, in the order of the file; nullptr = left out.
 using Inputs = std::span<const Tensor* const>;
 
-/// Rows and columns of zeros before the input.
-struct Padding {
-  int rows = 0, columns = 0;
-};
-Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, int filter_rows,
-                  int filter_columns);
-
 // The operators' arithmetic. Shapes are checked before; `out` has its shape and size.
 
 // Inputs of convolutions: what is filtered, the filter, and a bias, which may be left out.
@@ -46,17 +39,17 @@ void Run(const op::TransformTensor& transform, Inputs inputs, Tensor& out);
 /// a matrix.
 void Run(const op::TransformLandmarks& transform, Inputs inputs, Tensor& out);
 
-template <std::derived_from<op::UnaryOperator> Each>
-void Run(const Each&, Inputs inputs, Tensor& out) {
+template <std::derived_from<op::UnaryOperator> Op>
+void Run(const Op&, Inputs inputs, Tensor& out) {
   std::ranges::transform(inputs[0]->values, out.values.begin(),
-                         [](float x) { return Each::Apply(x); });
+                         [](float x) { return Op::Apply(x); });
 }
 
-template <std::derived_from<op::BinaryOperator> Pair>
-void Run(const Pair&, Inputs inputs, Tensor& out) {
+template <std::derived_from<op::BinaryOperator> Op>
+void Run(const Op&, Inputs inputs, Tensor& out) {
   const std::vector<float>&a = inputs[0]->values, &b = inputs[1]->values;
   for (std::size_t i = 0; i < a.size(); i += b.size()) {
-    for (std::size_t k = 0; k < b.size(); ++k) out.values[i + k] = Pair::Apply(a[i + k], b[k]);
+    for (std::size_t k = 0; k < b.size(); ++k) out.values[i + k] = Op::Apply(a[i + k], b[k]);
   }
 }
 

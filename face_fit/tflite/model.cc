@@ -153,9 +153,9 @@ void RefuseDilation(const Options& options, std::size_t field) {
   }
 }
 
-template <typename Without>
+template <typename Op>
 Operator ReadPlain(const Options&) {
-  return Without{};
+  return Op{};
 }
 
 Operator ReadConvolution(const Options& options) {
@@ -218,9 +218,7 @@ Operator ReadLandmarksToMatrix(const Options& options) {
   read.scale_y = static_cast<float>(map.Number("scale_y"));
   read.rows = size("output_height");
   read.columns = size("output_width");
-  if (read.points.empty() || read.rows < 1 || read.columns < 1) {
-    throw BadModel("a crop without points or without size");
-  }
+  if (read.rows < 1 || read.columns < 1) throw BadModel("a crop without size");
   return read;
 }
 

@@ -186,13 +186,11 @@ class NodeChecker {
 
 Network::Network(Model model, double most_work) : model_(std::move(model)) {
   std::vector<bool> known(model_.tensors.size());
-  std::size_t total = 0;
   for (std::size_t i = 0; i < known.size(); ++i) known[i] = model_.tensors[i].constant;
   Require(model_.inputs.size() == 1, "a network of other than one input");
-  for (const int i : model_.inputs) {
-    Require(!known[static_cast<std::size_t>(i)], "a network's input is a constant");
-    known[static_cast<std::size_t>(i)] = true;
-  }
+  const auto input = static_cast<std::size_t>(model_.inputs[0]);
+  Require(!known[input], "a network's input is a constant");
+  known[input] = true;
   double work = 0;
   for (const Node& node : model_.nodes) {
     for (const int i : node.inputs) {
@@ -209,6 +207,7 @@ Network::Network(Model model, double most_work) : model_(std::move(model)) {
   for (const int i : model_.outputs) {
     Require(known[static_cast<std::size_t>(i)], "nothing writes the network's output");
   }
+  std::size_t total = 0;
   for (Tensor& tensor : model_.tensors) {
     if (tensor.constant) continue;
     total += tensor.shape.count();
@@ -226,15 +225,12 @@ void Network::Run(std::span<const float> input) {
   std::ranges::copy(input, first.values.begin());
   for (const Node& node : model_.nodes) {
     if (IsWidenedWeight(node)) continue;
-    Compute(node);
-    Activate(node.activation, TensorAt(node.output).values);
+    std::vector<const Tensor*> inputs;
+    for (const int i : node.inputs) inputs.push_back(i < 0 ? nullptr : &TensorAt(i));
+    Tensor& out = TensorAt(node.output);
+    std::visit([&](const auto& of) { tflite::Run(of, inputs, out); }, node.op);
+    Activate(node.activation, out.values);
   }
-}
-
-void Network::Compute(const Node& node) {
-  std::vector<const Tensor*> inputs;
-  for (const int i : node.inputs) inputs.push_back(i < 0 ? nullptr : &TensorAt(i));
-  std::visit([&](const auto& of) { tflite::Run(of, inputs, TensorAt(node.output)); }, node.op);
 }
 
 }  // namespace facefit::tflite

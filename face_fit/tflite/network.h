@@ -31,7 +31,6 @@ class Network {
   bool IsWidenedWeight(const Node& node) const {
     return std::holds_alternative<op::Dequantize>(node.op) && TensorAt(node.inputs[0]).constant;
   }
-  void Compute(const Node& node);
 
   Model model_;
 };
