@@ -68,49 +68,39 @@ std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   return nearest;
 }
 
-/// The mouth of the base head at rest, from its right end to its left.
-class MouthAxis {
- public:
-  /// `base` must outlive this object.
-  explicit MouthAxis(const ObservedHead& base)
-      : base_(base),
-        right_(base.head().Landmark("cheilion_right").x),
-        width_(base.head().Landmark("cheilion_left").x - right_) {}
-  /// Returns the position along the mouth, as for PhotoLipSeam.
-  float Along(const MeshPoint& p) const {
-    return (p.On(base_.rest().position).x - right_) / width_;
-  }
-
- private:
-  const ObservedHead& base_;
-  float right_, width_;  // millimetres
-};
+/// Returns the position along the mouth of the base head at rest, as for PhotoLipSeam.
+float AlongMouth(const ObservedHead& base, const MeshPoint& p) {
+  const float right = base.head().Landmark("cheilion_right").x,
+              left = base.head().Landmark("cheilion_left").x;
+  return (p.On(base.rest().position).x - right) / (left - right);
+}
 
 /// Moves the corners of the mouth onto the lip seam, and the outer lips beside them with them:
 /// where the network misplaces a corner it misplaces these, too.
-void ShiftOuterLips(const FitProblem& problem, const MouthAxis& mouth, const PhotoLipSeam& seam,
+void ShiftOuterLips(const FitProblem& problem, const PhotoLipSeam& seam,
                     std::vector<PixelConstraint>& constraints) {
   for (const PointIndex corner : point::kMouthCorners) {
-    const float corner_along = mouth.Along(problem.base.mesh_points()[corner]);
+    const float corner_along = AlongMouth(problem.base, problem.base.mesh_points()[corner]);
     const glm::vec2 shift_px = seam.PixelAt(corner_along) - problem.face.PixelOf(corner);
     for (PixelConstraint& constraint : constraints) {
       const bool outer_lip =
           constraint.IsAmong(point::kUpperOuterLip) || constraint.IsAmong(point::kLowerOuterLip);
       if (constraint.point != corner && !outer_lip) continue;
-      constraint.pixel += shift_px * PhotoLook().outer_lips.go_with_corner.Ramp(
-                                         std::abs(mouth.Along(constraint.on_head) - corner_along));
+      constraint.pixel +=
+          shift_px * PhotoLook().outer_lips.go_with_corner.Ramp(
+                         std::abs(AlongMouth(problem.base, constraint.on_head) - corner_along));
     }
   }
 }
 
 /// Constrains closed lips to the lip seam. `base_in_expression`: as FittedHead's.
 void ConstrainToLipSeam(const FitProblem& problem, const CameraPose& pose,
-                        std::span<const glm::vec3> base_in_expression, const MouthAxis& mouth,
-                        const PhotoLipSeam& seam, std::vector<PixelConstraint>& constraints) {
+                        std::span<const glm::vec3> base_in_expression, const PhotoLipSeam& seam,
+                        std::vector<PixelConstraint>& constraints) {
   const ObservedHead& base = problem.base;
   const auto constrain = [&](const MeshPoint& p) {
-    constraints.push_back(
-        {std::nullopt, p, seam.PixelAt(mouth.Along(p)), pose.ToCamera(p.On(base_in_expression)).z});
+    constraints.push_back({std::nullopt, p, seam.PixelAt(AlongMouth(base, p)),
+                           pose.ToCamera(p.On(base_in_expression)).z});
   };
   for (const PointIndex i : point::kUpperInnerLip) constrain(base.mesh_points()[i]);
   for (const char* corner : {"cheilion_right", "cheilion_left"}) {
@@ -147,13 +137,13 @@ std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const Ca
   auto constraints = PointConstraints(problem, pose, base_in_expression);
   ShiftLidsToIrises(irises, constraints);
   if (problem.lips_apart) return constraints;
-  const MouthAxis mouth(problem.base);
-  const auto& on_head = problem.base.mesh_points();
-  const PhotoLipSeam seam = TraceLipSeam(
-      photo, problem.face,
-      {mouth.Along(on_head[point::kMouthRight]), mouth.Along(on_head[point::kMouthLeft])});
-  ShiftOuterLips(problem, mouth, seam, constraints);
-  ConstrainToLipSeam(problem, pose, base_in_expression, mouth, seam, constraints);
+  const auto along = [&problem](PointIndex corner) {
+    return AlongMouth(problem.base, problem.base.mesh_points()[corner]);
+  };
+  const PhotoLipSeam seam =
+      TraceLipSeam(photo, problem.face, {along(point::kMouthRight), along(point::kMouthLeft)});
+  ShiftOuterLips(problem, seam, constraints);
+  ConstrainToLipSeam(problem, pose, base_in_expression, seam, constraints);
   return constraints;
 }
 

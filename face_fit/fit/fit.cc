@@ -33,8 +33,8 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<double> out;
   for (const PointIndex k : point::kReliable) {
-    const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(base_in_expression));
-    const glm::vec2 offset = (pose.Project(q) - problem.face.PixelOf(k)) * mm_per_pixel;
+    const glm::vec2 pixel = pose.PixelOf(problem.base.mesh_points()[k].On(base_in_expression));
+    const glm::vec2 offset = (pixel - problem.face.PixelOf(k)) * mm_per_pixel;
     out.push_back(static_cast<double>(offset.x));
     out.push_back(static_cast<double>(offset.y));
   }
@@ -103,8 +103,7 @@ FaceFit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Imag
 float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
   float sum = 0;
   for (const PointIndex k : point::kReliable) {
-    const glm::vec3 q = fitted.pose.ToCamera(fitted.PositionOf(k));
-    sum += glm::distance(fitted.pose.Project(q), face.PixelOf(k));
+    sum += glm::distance(fitted.pose.PixelOf(fitted.PositionOf(k)), face.PixelOf(k));
   }
   return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kReliable));
 }

@@ -25,11 +25,7 @@ void AddGrain(const Mask& known, const Mask& amount, int reach, fsm::Image& imag
   if (std::ranges::max(known.values) < kSurelyKnown) return;
   const auto nearest = NearestAbove(known, kSurelyKnown);
   const float farthest = 8 * static_cast<float>(reach);
-  struct Transfer {
-    std::size_t to, from;
-    float share;
-  };
-  std::vector<Transfer> transfers;
+  const VectorImage colours = Colours(image), even = Blurred(colours, reach);
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i] >= kSurelyKnown || amount[i] <= 0) continue;
     const glm::ivec2 pixel = PixelAtIndex(known, i), edge = PixelAtIndex(known, nearest[i]);
@@ -41,11 +37,7 @@ void AddGrain(const Mask& known, const Mask& amount, int reach, fsm::Image& imag
     const float distance_px = glm::length(glm::vec2(edge - pixel));
     const float share = amount[i] * known[from] * (1 - known[i]) *
                         fsm::SmoothStep(farthest, 0.5F * farthest, distance_px);
-    if (share > 0) transfers.push_back({i, from, share});
-  }
-  const VectorImage colours = Colours(image), even = Blurred(colours, reach);
-  for (const auto& [to, from, share] : transfers) {
-    SetRgb(image, to, colours[to] + share * (colours[from] - even[from]));
+    if (share > 0) SetRgb(image, i, colours[i] + share * (colours[from] - even[from]));
   }
 }
 

@@ -78,41 +78,29 @@ CameraPose FitPoseToOutline(const Mask& opacity, CameraPose pose,
   return pose;
 }
 
-/// Missing depth as a function of height along the profile, smoothed.
-class OutlineDepthGaps {
- public:
-  OutlineDepthGaps(const Mask& opacity, const CameraPose& pose,
-                   const std::vector<glm::vec3>& line) {
-    for (const glm::vec3& p : line) {
-      if (const auto gap = OutlineDepthGap(opacity, pose, p)) gaps_.push_back({p.y, *gap});
-    }
+/// Returns the fit with its constraints moved forward or back by the gaps along the profile, which
+/// are smoothed over height, less with distance from the middle of the face.
+FaceFit WithoutGaps(const Mask& opacity, const CameraPose& pose, const std::vector<glm::vec3>& line,
+                    FaceFit fit) {
+  std::vector<std::pair<float, float>> gaps;  // height and gap, millimetres
+  for (const glm::vec3& p : line) {
+    if (const auto gap = OutlineDepthGap(opacity, pose, p)) gaps.emplace_back(p.y, *gap);
   }
-  float GapAt(float height) const {
+  const auto gap_at = [&gaps](float height) {
     float sum = 0, weights = 1e-3F;
-    for (const auto& [gap_height, gap] : gaps_) {
+    for (const auto& [gap_height, gap] : gaps) {
       const float sigmas = (gap_height - height) / kEvenMm;
       const float weight = std::exp(-0.5F * sigmas * sigmas);
       sum += weight * gap;
       weights += weight;
     }
     return sum / weights;
-  }
-
- private:
-  struct GapAtHeight {
-    float height_mm, gap_mm;
   };
-  std::vector<GapAtHeight> gaps_;
-};
-
-/// Returns the fit with its constraints moved forward or back by the gaps, less with distance from
-/// the middle of the face.
-FaceFit WithoutGaps(const OutlineDepthGaps& gaps, FaceFit fit) {
   const std::vector<glm::vec3> vertices = fit.head.vertices;
   return WithDepthShifted(std::move(fit), [&](const PixelConstraint& constraint) {
     const glm::vec3 p = constraint.on_head.On(vertices);
     const float weight = std::exp(-p.x * p.x / (kWideMm * kWideMm));
-    return weight * std::clamp(gaps.GapAt(p.y), -kMaxCorrectionMm, kMaxCorrectionMm);
+    return weight * std::clamp(gap_at(p.y), -kMaxCorrectionMm, kMaxCorrectionMm);
   });
 }
 
@@ -132,11 +120,11 @@ std::optional<FaceFit> CorrectDepthByProfile(const Mask& opacity, FaceFit fit) {
   std::vector<glm::vec3> line = ProfileOf(fit.head, kProfileBelowChinMm);
   CameraPose pose = FitPoseToOutline(opacity, PoseOfProfile(*placement, line), line);
   if (MeanOutlineDepthGap(opacity, pose, line) > kMaxProfileGapMm) return std::nullopt;
-  fit = WithoutGaps(OutlineDepthGaps(opacity, pose, line), std::move(fit));
+  fit = WithoutGaps(opacity, pose, line, std::move(fit));
   for (int round = 1; round < kProfileRounds; ++round) {
     line = ProfileOf(fit.head, kProfileBelowChinMm);
     pose = FitPoseToOutline(opacity, pose, line);
-    fit = WithoutGaps(OutlineDepthGaps(opacity, pose, line), std::move(fit));
+    fit = WithoutGaps(opacity, pose, line, std::move(fit));
   }
   return fit;
 }

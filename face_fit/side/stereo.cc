@@ -26,8 +26,7 @@ constexpr int kMaxSamples = 400;  // to a side
 /// lies on two features of the face.
 constexpr float kMinFacing = 0.25F, kMinFacingSide = 0.2F, kMaxDepthStepInPatchMm = 25;
 
-using Sample = StereoMatcher::Sample;
-using Samples = Raster<std::optional<Sample>>;
+using Samples = Raster<std::optional<SkinSample>>;
 
 /// Samples the fitted skin that the front photo shows.
 Samples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo) {
@@ -40,16 +39,16 @@ Samples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo) {
   const VisibleSurface surface =
       DrawSkin(fitted.base->surface(), fitted.pose.ToScreen(vertices), grid);
   const glm::vec3 to_front = fitted.pose.TowardsCamera();
-  return Samples::From(grid.columns, grid.rows, [&](int x, int y) -> std::optional<Sample> {
+  return Samples::From(grid.columns, grid.rows, [&](int x, int y) -> std::optional<SkinSample> {
     const SurfaceSample* sample = surface.SampleAt(x, y);
     if (!sample) return std::nullopt;
     const MeshPoint on_mesh = sample->OnMesh();
     const glm::vec3 normal = glm::normalize(sample->triangle.Normal(vertices));
-    return Sample{.in_camera = fitted.pose.ToCamera(on_mesh.On(vertices)),
-                  .rest = on_mesh.On(fitted.base->rest().position),
-                  .normal = normal,
-                  .brightness = Brightness(ColourAt(front_photo, grid.Point(x, y))),
-                  .facing = glm::dot(normal, to_front)};
+    return SkinSample{.in_camera = fitted.pose.ToCamera(on_mesh.On(vertices)),
+                      .rest = on_mesh.On(fitted.base->rest().position),
+                      .normal = normal,
+                      .brightness = Brightness(ColourAt(front_photo, grid.Point(x, y))),
+                      .facing = glm::dot(normal, to_front)};
   });
 }
 
@@ -68,7 +67,7 @@ float Correlation(std::span<const float> a, std::span<const float> b) {
 }
 
 struct Patch {
-  Sample middle;
+  SkinSample middle;
   std::vector<float> brightness;
   std::vector<glm::vec3> in_camera;
 };
@@ -118,25 +117,16 @@ Peak FindPeak(int reach, F value) {
   return {step, *best};
 }
 
-/// Compares patches with pixels of the side photo.
-class PatchMatcher {
- public:
-  explicit PatchMatcher(const fsm::Image& image) : image_(image) {}
-  /// `pixel(i)`: the pixel for the i-th sample of the patch.
-  template <typename Pixel>
-  float Match(const Patch& patch, Pixel pixel) {
-    brightness_.clear();
-    for (std::size_t i = 0; i < patch.in_camera.size(); ++i) {
-      brightness_.push_back(Brightness(ColourAt(image_, pixel(i))));
-    }
-    RemovePlane(brightness_);
-    return Correlation(patch.brightness, brightness_);
+/// Returns the correlation of a patch with pixels of the side photo. `pixel(i)`: the pixel for the
+/// i-th sample of the patch.
+float MatchPatch(const fsm::Image& side_photo, const Patch& patch, auto pixel) {
+  std::vector<float> brightness(patch.in_camera.size());
+  for (std::size_t i = 0; i < brightness.size(); ++i) {
+    brightness[i] = Brightness(ColourAt(side_photo, pixel(i)));
   }
-
- private:
-  const fsm::Image& image_;
-  std::vector<float> brightness_;  // of one patch; kept to save allocations
-};
+  RemovePlane(brightness);
+  return Correlation(patch.brightness, brightness);
+}
 
 // Reach of the first search, in the image around where the fit has the patch, steps of 1 mm.
 constexpr int kReachAcrossMm = 6, kReachDownMm = 4;
@@ -148,7 +138,7 @@ constexpr int kPoseRefinements = 2;
 
 /// Returns where patches are found in the side photo, whatever their depth.
 std::vector<PointMatch> FindPatches(const Samples& samples, const CameraPose& front_pose,
-                                    const CameraPose& side_pose, PatchMatcher& matcher) {
+                                    const CameraPose& side_pose, const fsm::Image& side_photo) {
   std::vector<PointMatch> matches;
   std::vector<glm::vec2> pixels;
   const float pixels_per_mm = side_pose.PixelsPerMm();
@@ -165,7 +155,7 @@ std::vector<PointMatch> FindPatches(const Samples& samples, const CameraPose& fr
       for (int x = -kReachAcrossMm; x <= kReachAcrossMm; ++x) {
         const glm::vec2 shift_px = glm::vec2(x, y) * pixels_per_mm;
         const float correlation =
-            matcher.Match(patch, [&](std::size_t i) { return pixels[i] + shift_px; });
+            MatchPatch(side_photo, patch, [&](std::size_t i) { return pixels[i] + shift_px; });
         if (correlation <= best) continue;
         best = correlation;
         best_shift_px = shift_px;
@@ -180,12 +170,12 @@ std::vector<PointMatch> FindPatches(const Samples& samples, const CameraPose& fr
 
 /// Returns the depths of the patches where they are seen clearly.
 std::vector<PatchDepth> FindDepths(const Samples& samples, const CameraPose& front_pose,
-                                   const CameraPose& side_pose, PatchMatcher& matcher) {
+                                   const CameraPose& side_pose, const fsm::Image& side_photo) {
   std::vector<PatchDepth> depths;
   for (const Patch& patch : PatchesOf(samples, side_pose.TowardsCamera())) {
     const Peak peak = FindPeak(kDepthSteps, [&](int step) {
       const float nearer_mm = kDepthStepMm * static_cast<float>(step);
-      const float correlation = matcher.Match(patch, [&](std::size_t i) {
+      const float correlation = MatchPatch(side_photo, patch, [&](std::size_t i) {
         const glm::vec3& q = patch.in_camera[i];
         return side_pose.PixelOf(
             front_pose.FromCamera(front_pose.Unproject(front_pose.Project(q), q.z + nearer_mm)));
@@ -207,9 +197,8 @@ StereoMatcher::StereoMatcher(const FittedHead& fitted, const fsm::Image& front_p
       samples_(SampleSkin(fitted, front_photo)) {}
 
 std::optional<CameraPose> StereoMatcher::RefinePose(CameraPose side_pose) const {
-  PatchMatcher matcher(side_photo_);
   for (int round = 0; round < kPoseRefinements; ++round) {
-    const auto matches = FindPatches(samples_, front_pose_, side_pose, matcher);
+    const auto matches = FindPatches(samples_, front_pose_, side_pose, side_photo_);
     if (matches.size() < kMinPatches) return std::nullopt;
     side_pose = FitPose(matches, side_pose);
   }
@@ -218,8 +207,7 @@ std::optional<CameraPose> StereoMatcher::RefinePose(CameraPose side_pose) const 
 
 std::optional<std::vector<PatchDepth>> StereoMatcher::MeasureDepth(
     const CameraPose& side_pose) const {
-  PatchMatcher matcher(side_photo_);
-  auto depths = FindDepths(samples_, front_pose_, side_pose, matcher);
+  auto depths = FindDepths(samples_, front_pose_, side_pose, side_photo_);
   if (depths.size() < kMinPatches) return std::nullopt;
   return depths;
 }

@@ -14,6 +14,14 @@ struct PatchDepth {
   float nearer_mm;    ///< to the front photo's camera than in the fit
 };
 
+/// A point of the fitted skin as the front photo shows it.
+struct SkinSample {
+  glm::vec3 in_camera, rest;  ///< in the camera's frame; on the base head
+  glm::vec3 normal;           ///< head's frame, unit
+  float brightness;
+  float facing;  ///< cosine of the slant to the front photo's camera
+};
+
 /// Finds small patches of skin of the front photo in a photo from the side.
 class StereoMatcher {
  public:
@@ -27,18 +35,10 @@ class StereoMatcher {
   /// `side_pose`: as refined by RefinePose. Returns nothing if fewer than 25 patches are found.
   std::optional<std::vector<PatchDepth>> MeasureDepth(const CameraPose& side_pose) const;
 
-  /// A point of the fitted skin as the front photo shows it.
-  struct Sample {
-    glm::vec3 in_camera, rest;  ///< in the camera's frame; on the base head
-    glm::vec3 normal;           ///< head's frame, unit
-    float brightness;
-    float facing;  ///< cosine of the slant to the front photo's camera
-  };
-
  private:
   CameraPose front_pose_;
   const fsm::Image& side_photo_;
-  Raster<std::optional<Sample>> samples_;
+  Raster<std::optional<SkinSample>> samples_;
 };
 
 }  // namespace facefit

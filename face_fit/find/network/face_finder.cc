@@ -39,21 +39,6 @@ bool OfOneFace(const FaceBox& a, const FaceBox& b) {
          both / std::max(std::min(a.Area(), b.Area()), 1e-6F) > kSameSmaller;
 }
 
-/// Returns the faces in a square of an image, in its pixels.
-std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image,
-                            const NetworkCrop& crop) {
-  auto faces = networks.Detect(crop.Sample(image, kDetectorPixels, -1, 1));
-  for (FaceBox& face : faces) {
-    face.centre = crop.ToImage(face.centre);
-    face.size *= crop.size;
-    for (glm::vec2& eye : face.eyes) eye = crop.ToImage(eye);
-  }
-  std::erase_if(faces, [](const FaceBox& face) {
-    return !(std::min(face.size.x, face.size.y) >= kMinFacePx);
-  });
-  return faces;
-}
-
 /// A box, and its rank among boxes of the same face.
 struct Detection {
   FaceBox face;
@@ -79,11 +64,13 @@ class ScaledDetector {
       scale *= 0.5F;
       ++copy;
     }
-    for (FaceBox face : Detect(networks_, copies_[copy], {centre * scale, size * scale, 0})) {
-      face.centre /= scale;
-      face.size /= scale;
-      for (glm::vec2& eye : face.eyes) eye /= scale;
-      found.push_back({face, face.score});
+    const NetworkCrop crop{centre, size, 0}, in_copy{centre * scale, size * scale, 0};
+    for (FaceBox face : networks_.Detect(in_copy.Sample(copies_[copy], kDetectorPixels, -1, 1))) {
+      face.centre = crop.ToImage(face.centre);
+      face.size *= size;
+      for (glm::vec2& eye : face.eyes) eye = crop.ToImage(eye);
+      const float smaller_px = std::min(face.size.x, face.size.y) * scale;
+      if (smaller_px >= kMinFacePx) found.push_back({face, face.score});
     }
   }
 
