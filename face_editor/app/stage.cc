@@ -128,7 +128,7 @@ std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::FittedHead
   const facefit::ObservedHead& base = *fitted.base;
   const std::vector<glm::vec3> camera = fitted.pose.ToCamera(fitted.vertices);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  facefit::ForEachSkinTriangle(base.surface(), [&](const facefit::MeshTriangle& t) {
+  facefit::ForEachSkinAndLipTriangle(base.surface(), [&](const facefit::MeshTriangle& t) {
     const glm::vec3 n = t.Normal(camera);
     // The neck is not fitted, what lies behind is not seen.
     const bool face = std::ranges::all_of(t.corner, [&](std::uint32_t v) {

@@ -17,7 +17,7 @@ VisibleSurface VisibleSkin(const FittedHead& fitted, const CameraPose& pose, con
     return vertices[v].y < bottom_mm || vertices[v].z < fsm::NeckFrontZ(vertices[v].y - bottom_mm);
   };
   VisibleSurface surface(grid, pose.ToScreen(vertices));
-  ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
+  ForEachSkinAndLipTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
     if (std::ranges::any_of(triangle.corner, beyond)) return;
     const glm::vec3 normal = triangle.Normal(vertices);
     if (glm::dot(normal, axis) > kMinFacing * glm::length(normal)) surface.Draw(triangle);

@@ -16,35 +16,6 @@
 namespace facefit {
 namespace {
 
-/// Tells whether the head itself hides a point of its skin from the camera, as the jaw hides the
-/// throat.
-class SelfOcclusion {
- public:
-  SelfOcclusion(const FittedHead& fitted, const CameraPose& pose) {
-    const glm::vec2 middle = pose.Project({0, 0, 0});
-    const float reach = kReachMm * pose.PixelsPerMm();
-    const float cell = 2 * reach / kCells;
-    grid_ = {middle - reach, cell, kCells, kCells};
-    nearest_ = VisibleSkin(fitted, pose, grid_, kNoBottom).depth();
-  }
-  bool operator()(const TexelProjection& texel) const {
-    const glm::vec2 cell = (texel.pixel - grid_.origin) / grid_.step + 0.5F;
-    const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
-    if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
-    constexpr float kBehindMm = 5;
-    return std::ranges::none_of(kAround, [&](glm::ivec2 offset) {
-      return nearest_(x + offset.x, y + offset.y) < texel.z_mm + kBehindMm;
-    });
-  }
-
- private:
-  static constexpr int kCells = 256;
-  static constexpr float kReachMm = 180;
-  static constexpr float kNoBottom = -1e9F;
-  SampleGrid grid_{};
-  FloatImage nearest_;
-};
-
 /// The lip seam and the outer borders of the base head's lips at rest, millimetres.
 class LipLines {
  public:
@@ -83,7 +54,7 @@ class LipLines {
 std::vector<glm::vec3> SkinNormals(const fsm::HeadSurface& topology,
                                    const std::vector<glm::vec3>& position) {
   std::vector<glm::vec3> normal(position.size(), glm::vec3(0));
-  ForEachSkinTriangle(topology, [&](const MeshTriangle& triangle) {
+  ForEachSkinAndLipTriangle(topology, [&](const MeshTriangle& triangle) {
     for (const std::uint32_t v : triangle.corner) normal[v] += triangle.Normal(position);
   });
   return normal;
@@ -114,7 +85,7 @@ SkinTexels FindSkinTexels(const ObservedHead& base) {
   SkinTexels out(kMapSize, kMapSize);
   // Of the triangles that share a texel the one farthest from the head's vertical axis counts.
   FloatImage outward_mm2(kMapSize, kMapSize, -1);
-  ForEachSkinTriangle(topology, [&](const MeshTriangle& triangle) {
+  ForEachSkinAndLipTriangle(topology, [&](const MeshTriangle& triangle) {
     const auto on_map = OnMap(topology, triangle);
     if (!on_map) return;
     Rasterize(*on_map, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {
@@ -153,9 +124,21 @@ TexelProjections ProjectTexels(const FittedHead& fitted, const SkinTexels& texel
 
 void HideSelfOccluded(const FittedHead& fitted, const CameraPose& pose,
                       TexelProjections& projections) {
-  const SelfOcclusion hides(fitted, pose);
+  constexpr int kCells = 256;
+  constexpr float kGridReachMm = 180, kNoBottom = -1e9F, kBehindMm = 5;
+  const float reach = kGridReachMm * pose.PixelsPerMm();
+  const SampleGrid grid{pose.Project({0, 0, 0}) - reach, 2 * reach / kCells, kCells, kCells};
+  const FloatImage nearest = VisibleSkin(fitted, pose, grid, kNoBottom).depth();
+  const auto hidden = [&](const TexelProjection& texel) {
+    const glm::vec2 cell = (texel.pixel - grid.origin) / grid.step + 0.5F;
+    const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
+    if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
+    return std::ranges::none_of(kAround, [&](glm::ivec2 offset) {
+      return nearest(x + offset.x, y + offset.y) < texel.z_mm + kBehindMm;
+    });
+  };
   for (auto& texel : projections.values) {
-    if (texel && hides(*texel)) texel.reset();
+    if (texel && hidden(*texel)) texel.reset();
   }
 }
 

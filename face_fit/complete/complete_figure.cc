@@ -23,7 +23,7 @@ namespace {
 /// Returns the row of the top of the head with hair on it, photo pixels; it may be negative.
 float CrownRow(const FittedHead& fitted) {
   float highest = std::numeric_limits<float>::infinity();
-  ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
+  ForEachSkinAndLipTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
     highest = std::min(highest, fitted.pose.PixelOf(fitted.vertices[triangle.corner[0]]).y);
   });
   return highest - PhotoLook().hair.on_crown_mm * fitted.pose.PixelsPerMm();
@@ -128,7 +128,7 @@ void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& h
 
 CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& figure) {
   const float crown_px = CrownRow(fitted);
-  const fsm::FaceLight light = LightOnFace(fitted, figure);
+  const fsm::FaceLight light = LightOnFace(fitted, figure.colours);
   const PhotoEdges edges(fitted, figure, 255.0F * light.skin());
   const Canvas canvas = CanvasFor(figure, fitted, edges,
                                   fitted.pose.PixelOf(fitted.PositionOf(point::kChin)), crown_px);
@@ -137,7 +137,7 @@ CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& fig
   pose.centre_px += glm::vec2(canvas.photo_origin);
   const BodyShape body(canvas, edges, without_tips.opacity,
                        DrawBust(fitted, pose, canvas.size.x, canvas.size.y));
-  const HairPaint hair(canvas, edges, without_tips, crown_px);
+  const HairPaint hair(canvas, edges, without_tips.colours, crown_px);
   CanvasLayers out(canvas.size);
   CopyPhoto(canvas, figure, without_tips, out);
   CloseLowerEdge(canvas, without_tips, body, out.figure.opacity);

@@ -37,11 +37,11 @@ float DomeHeightPx(const PhotoEdges& edges, float width_px, float crown_px) {
   return std::clamp(-crown_px, width_px * least, width_px * look.dome_most_by_width);
 }
 
-HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const FigureCutout& figure,
+HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const fsm::Image& colours,
                      float crown_px)
     : canvas_(canvas),
       edges_(edges),
-      figure_(figure),
+      colours_(colours),
       top_(LongestRun(edges.width(),
                       [&](int x) { return edges.top(x).kind != EdgeKind::kNothing; })),
       sides_{.right = SpanOf(SideEdge::kRight), .left = SpanOf(SideEdge::kLeft)} {
@@ -124,7 +124,7 @@ glm::vec3 HairPaint::Colour(glm::vec2 pixel) const {
   }
   const float enough = fsm::SmoothStep(0.0F, PhotoLook().hair.enough_mm * canvas_.pixels_per_mm,
                                        static_cast<float>(reach_px));
-  return glm::mix(edges_.hair(), ColourAt(figure_.colours, mirrored), enough);
+  return glm::mix(edges_.hair(), ColourAt(colours_, mirrored), enough);
 }
 
 Paint HairPaint::HairBelow(glm::vec2 pixel, float below_px) const {

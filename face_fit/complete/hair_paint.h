@@ -18,8 +18,9 @@ float DomeHeightPx(const PhotoEdges& edges, float width_px, float crown_px);
 /// edge hangs on in the colours of that edge and ends in strands.
 class HairPaint {
  public:
-  /// `crown_px`: as for DomeHeightPx. The references must outlive this object.
-  HairPaint(const Canvas& canvas, const PhotoEdges& edges, const FigureCutout& figure,
+  /// `colours`: of the figure; `crown_px`: as for DomeHeightPx. The references must outlive this
+  /// object.
+  HairPaint(const Canvas& canvas, const PhotoEdges& edges, const fsm::Image& colours,
             float crown_px);
   /// Returns whether the photo cuts hair above, on the left or on the right.
   bool CutsHair() const { return cut_; }
@@ -43,7 +44,7 @@ class HairPaint {
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;
-  const FigureCutout& figure_;
+  const fsm::Image& colours_;
   EdgeSpan top_;
   PerSideEdge<EdgeSpan> sides_;
   float dome_px_ = 0;            ///< height of the dome above the photo, pixels

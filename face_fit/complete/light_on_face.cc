@@ -9,21 +9,18 @@
 
 namespace facefit {
 
-fsm::FaceLight LightOnFace(const FittedHead& fitted, const FigureCutout& figure) {
+fsm::FaceLight LightOnFace(const FittedHead& fitted, const fsm::Image& colours) {
   const auto& position = fitted.vertices;
-  std::vector<std::uint32_t> corners;
-  ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
-    corners.insert(corners.end(), triangle.corner.begin(), triangle.corner.end());
-  });
-  const auto normal = fsm::Normals(corners, position, position.size());
+  const auto normal =
+      fsm::Normals(SkinAndLipCorners(fitted.base->surface()), position, position.size());
   constexpr float kSquarely = 0.3F;  // cosine
   constexpr float kFrontMm = 45;     // neither neck nor ears
   std::vector<fsm::FaceLight::Patch> patches;
   for (std::size_t v = 0; v < position.size(); ++v) {
     if (normal[v].z < kSquarely || position[v].z < kFrontMm) continue;
     const glm::vec2 pixel = fitted.pose.PixelOf(position[v]);
-    if (!IsInside(figure.colours, pixel)) continue;
-    patches.push_back({normal[v], ColourAt(figure.colours, pixel) / 255.0F});
+    if (!IsInside(colours, pixel)) continue;
+    patches.push_back({normal[v], ColourAt(colours, pixel) / 255.0F});
   }
   return fsm::FaceLight(patches);
 }

@@ -163,7 +163,7 @@ std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm) 
   const float high = fitted.PositionOf(point::kNasion).y + kAboveNasionMm;
   const auto count = static_cast<std::size_t>(std::max(high - low, kLineStepMm) / kLineStepMm) + 1;
   std::vector<std::optional<float>> foremost(count);
-  ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
+  ForEachSkinAndLipTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
     for (std::size_t c = 0; c < 3; ++c) {
       const glm::vec3 a = fitted.vertices[triangle.corner[c]],
                       b = fitted.vertices[triangle.corner[(c + 1) % 3]];

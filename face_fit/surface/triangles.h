@@ -35,10 +35,18 @@ void ForEachTriangle(const fsm::HeadSurface& topology, Keep keep_material, F f) 
 
 /// Calls `f` with each triangle of skin and lips.
 template <typename F>
-void ForEachSkinTriangle(const fsm::HeadSurface& topology, F f) {
+void ForEachSkinAndLipTriangle(const fsm::HeadSurface& topology, F f) {
   ForEachTriangle(
       topology,
       [](fsm::Material m) { return m == fsm::Material::kSkin || m == fsm::Material::kLip; }, f);
+}
+/// Returns the corners of these triangles, three indices each.
+inline std::vector<std::uint32_t> SkinAndLipCorners(const fsm::HeadSurface& topology) {
+  std::vector<std::uint32_t> corners;
+  ForEachSkinAndLipTriangle(topology, [&](const MeshTriangle& triangle) {
+    corners.insert(corners.end(), triangle.corner.begin(), triangle.corner.end());
+  });
+  return corners;
 }
 
 }  // namespace facefit

@@ -47,7 +47,7 @@ const SurfaceSample* VisibleSurface::SampleAt(int column, int row) const {
 VisibleSurface DrawSkin(const fsm::HeadSurface& topology, std::vector<glm::vec3> screen,
                         const SampleGrid& grid) {
   VisibleSurface surface(grid, std::move(screen));
-  ForEachSkinTriangle(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
+  ForEachSkinAndLipTriangle(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 

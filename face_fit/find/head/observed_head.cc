@@ -9,7 +9,6 @@
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/image/filters.h"
 #include "face_fit/surface/rasterizer.h"
-#include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/rigging/transferred_rig.h"

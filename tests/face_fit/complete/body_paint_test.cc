@@ -69,7 +69,7 @@ TEST_F(BodyPaintTest, WhereOnlyANeckIsSeenTheBustMeetsItsWidthAndIsNotSeenBeside
 
 TEST_F(BodyPaintTest, SkinGoesOnInThePhotosColourUntilTheNecklineCloses) {
   const PhotoEdges edges = Edges();
-  const fsm::FaceLight light = LightOnFace(fitted_, figure_);
+  const fsm::FaceLight light = LightOnFace(fitted_, figure_.colours);
   const BodyShape shape = Shape(edges);
   const BodyPaint paint(canvas_, edges, light, shape);
   const Paint near = paint.PaintAt({150, kPhoto + 3});

@@ -35,7 +35,7 @@ class HairPaintTest : public BuiltInFigureTest {
 
 TEST_F(HairPaintTest, HairThatTheUpperEdgeCutsIsRoundedOffUpToTheCrown) {
   const PhotoEdges edges(fitted_, figure_, glm::vec3(kSkin));
-  const HairPaint hair(canvas_, edges, figure_, -20);
+  const HairPaint hair(canvas_, edges, figure_.colours, -20);
   EXPECT_TRUE(hair.CutsHair());
   EXPECT_GT(hair.PaintAt({150, -5}).opacity, 0.9F);
   EXPECT_NEAR(Brightness(hair.PaintAt({150, -5}).colour), kHair, 2);
@@ -51,7 +51,7 @@ TEST_F(HairPaintTest, APhotoThatCutsNoHairGetsNone) {
     for (int y = 0; y < 5; ++y) figure_.opacity(x, y) = 0;
   }
   const PhotoEdges edges(fitted_, figure_, glm::vec3(kSkin));
-  const HairPaint hair(canvas_, edges, figure_, 5);
+  const HairPaint hair(canvas_, edges, figure_.colours, 5);
   EXPECT_FALSE(hair.CutsHair());
   EXPECT_EQ(hair.PaintAt({150, -1}).opacity, 0);
 }
