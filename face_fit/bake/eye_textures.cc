@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "face_fit/bake/head_atlas.h"
-#include "face_fit/bake/light_gain.h"
 #include "face_fit/bake/red_eye.h"
+#include "face_fit/bake/skin_colours.h"
 #include "face_fit/image/filters.h"
 #include "face_fit/image/pixels.h"
 #include "face_fit/image/plane.h"

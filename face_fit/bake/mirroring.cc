@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include "face_fit/bake/light_gain.h"
+#include "face_fit/bake/skin_colours.h"
 #include "face_fit/bake/skin_texels.h"
 #include "face_fit/image/filters.h"
 #include "face_fit/image/pixels.h"

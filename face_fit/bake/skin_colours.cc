@@ -1,8 +1,8 @@
 #include "face_fit/bake/skin_colours.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -33,27 +33,23 @@ float Saturation(const fsm::Image& map, const Mask& coverage) {
   return PhotoLook().colour.difference.Ramp(sum / std::max(light, 1.0F));
 }
 
+glm::vec3 LightGain(glm::vec3 to, glm::vec3 from) {
+  return PhotoLook().light_gain.Clamp(to / from);
+}
+
 Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage) {
-  std::array<std::vector<float>, 3> channels;
+  std::vector<glm::vec3> colours;
   for (std::size_t i = 0; i < face_coverage.size(); ++i) {
-    if (face_coverage[i] < kWellCovered) continue;
-    for (std::size_t c = 0; c < 3; ++c) channels[c].push_back(map.rgba[4 * i + c]);
+    if (face_coverage[i] >= kWellCovered) colours.push_back(Rgb(map, i));
   }
   Mask likeness(map.width, map.height, 1);
-  if (channels[0].empty()) return likeness;
-  std::array<float, 3> middle{};
+  if (colours.empty()) return likeness;
   const fsm::Range hair = PhotoLook().hair_detection.darker_log;
   constexpr float kDark = 8;  // of 255; differences in the dark that do not count
-  for (std::size_t c = 0; c < 3; ++c) {
-    middle[c] = Median(std::move(channels[c])) + kDark;
-  }
+  const glm::vec3 middle = Median(colours) + kDark;
   for (std::size_t i = 0; i < likeness.size(); ++i) {
-    float darker = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      darker =
-          std::max(darker, std::log(middle[c] / (static_cast<float>(map.rgba[4 * i + c]) + kDark)));
-    }
-    likeness[i] = hair.Ramp(darker);
+    const glm::vec3 darker = glm::log(middle / (Rgb(map, i) + kDark));
+    likeness[i] = hair.Ramp(std::max({darker.r, darker.g, darker.b, 0.0F}));
   }
   return Blurred(likeness, MmToTexels(kHairEdgeMm, map.width));
 }

@@ -10,6 +10,10 @@ namespace facefit {
 /// channels.
 float Saturation(const fsm::Image& map, const Mask& coverage);
 
+/// Returns the gain of each channel that moves a colour from one light to another: the ratio of
+/// `to` to `from`, colours of similar skin in either light, clamped to light_gain of the table.
+glm::vec3 LightGain(glm::vec3 to, glm::vec3 from);
+
 /// Returns how much of each texel is skin rather than hair, 0..1: hair is much darker than the
 /// face's median.
 Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage);

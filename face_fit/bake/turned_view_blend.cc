@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "face_fit/bake/light_gain.h"
 #include "face_fit/bake/openings.h"
+#include "face_fit/bake/skin_colours.h"
 #include "face_fit/image/pixels.h"
 #include "face_fit/image/resample.h"
 #include "face_fit/tables/photo_look.h"

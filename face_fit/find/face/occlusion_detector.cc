@@ -145,17 +145,16 @@ bool IsReferenceSkin(glm::vec2 mm) {
 /// Matches the colour of the built-in head's skin to the photo's by the medians over cheeks, nose
 /// and forehead.
 WarpedHead MatchSkinColour(std::span<const float> network_pixels, WarpedHead warped) {
-  for (int c = 0; c < 3; ++c) {
-    std::vector<float> gain;
-    for (std::size_t i = 0; i < kPixels; ++i) {
-      if (!IsReferenceSkin(warped.on_face[i])) continue;
-      gain.push_back(network_pixels[3 * i + static_cast<std::size_t>(c)] /
-                     std::max(warped.colour[i][c], kDarkest));
-    }
-    if (gain.empty()) return warped;
-    const float middle = Median(std::move(gain));
-    for (glm::vec3& colour : warped.colour) colour[c] = std::min(middle * colour[c], 1.0F);
+  std::vector<glm::vec3> gains;
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    if (!IsReferenceSkin(warped.on_face[i])) continue;
+    const glm::vec3 seen(network_pixels[3 * i], network_pixels[3 * i + 1],
+                         network_pixels[3 * i + 2]);
+    gains.push_back(seen / glm::max(warped.colour[i], kDarkest));
   }
+  if (gains.empty()) return warped;
+  const glm::vec3 gain = Median(gains);
+  for (glm::vec3& colour : warped.colour) colour = glm::min(gain * colour, 1.0F);
   return warped;
 }
 
