@@ -1,5 +1,7 @@
 #include "face_fit/make_face.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <glm/geometric.hpp>
@@ -35,14 +37,15 @@ struct FaceSearcher {
 
   vm::Result<FaceSearch> operator()(const FaceNumber& choice) {
     UprightPhoto upright = SetUpright(networks, std::move(photo));
-    FaceSearch search{.photo = std::move(upright.image),
-                      .face = {},
-                      .face_count = static_cast<int>(upright.faces.size()),
-                      .orientation = upright.orientation};
-    if (upright.faces.empty()) return search;
-    auto face = ChooseFace(upright.faces, choice.number);
-    if (!face) return std::unexpected(face.error());
-    search.face = std::move(*face);
+    const int count = static_cast<int>(upright.faces.size());
+    FaceSearch search{std::move(upright.image), {}, count, upright.orientation};
+    if (count == 0) return search;
+    if (choice.number < 1 || choice.number > count) {
+      return vm::Fail(
+          vm::Errc::kBadValue,
+          fmt::format("face {}: there are {}, counted from the largest", choice.number, count));
+    }
+    search.face = std::move(upright.faces[static_cast<std::size_t>(choice.number - 1)]);
     return search;
   }
   vm::Result<FaceSearch> operator()(const FaceNear& choice) {
@@ -79,15 +82,6 @@ float LongerSide(const fsm::Image& photo) {
 }
 
 }  // namespace
-
-vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number) {
-  if (number < 1 || static_cast<std::size_t>(number) > faces.size()) {
-    return vm::Fail(vm::Errc::kBadValue, "face " + std::to_string(number) + ": there are " +
-                                             std::to_string(faces.size()) +
-                                             ", counted from the largest");
-  }
-  return faces[static_cast<std::size_t>(number - 1)];
-}
 
 vm::Result<PreparedFront> PrepareFront(FaceNetworks& networks, const ObservedHead& base,
                                        fsm::Image photo, const FaceChoice& choice,

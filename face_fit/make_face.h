@@ -18,14 +18,11 @@ class FaceNetworks;
 /// Is called with the name of each step when it is done.
 using StepDone = std::function<void(const char* step)>;
 
-/// Returns the face of that number, 1 = the largest. Error: kBadValue, there are fewer.
-vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number);
-
 /// How a face of a photo is chosen: FaceNumber, by its size, searched in the photo and in turned
 /// copies of it; FaceNear, as the face whose nose lies nearest to a pixel of the photo as it is, at
 /// any distance; HandPoints, from points set by hand, without a search.
 struct FaceNumber {
-  int number = 1;  ///< as for ChooseFace
+  int number = 1;  ///< 1 = the largest
 };
 struct FaceNear {
   glm::vec2 nose;

@@ -114,6 +114,7 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
   const Mask face_coverage = CoverageOfFace(texels, map.coverage);
   const fsm::Range range = look.creases.roughness;
   const float rough = (Roughness(map.image, face_coverage) - range.from) / (range.to - range.from);
+  constexpr float kBrowsEndMm = 27;  // above the nasion
   const float brows_y_mm = fitted.base->head().Landmark("nasion").y + kBrowsEndMm;
   const Mask likeness = CutAtHairline(texels, brows_y_mm, SkinLikeness(map.image, face_coverage));
   for (std::size_t i = 0; i < likeness.size(); ++i) {

@@ -11,8 +11,7 @@
 
 namespace facefit {
 
-inline constexpr int kMapSize = 1024;     ///< texels on each side of the skin's map
-inline constexpr float kBrowsEndMm = 27;  ///< above the nasion
+inline constexpr int kMapSize = 1024;  ///< texels on each side of the skin's map
 
 /// Returns a length on the face in texels of a map of that width, rounded. A face is about 400
 /// texels wide on a map of kMapSize.

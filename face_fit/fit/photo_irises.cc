@@ -23,8 +23,7 @@ glm::vec2 MiddleOfLids(const EyePoints& lids) {
   return 0.5F * (lids[kUpperMiddle] + lids[kLowerMiddle]);
 }
 
-}  // namespace
-
+/// Returns where a photo shows an eye with these lids if it is formed as the base head's.
 ExpectedEye ExpectEye(const ObservedHead& base, const EyePoints& lids, fsm::Side side) {
   // The base head's eye in millimetres, y down.
   const EyePoints on_base = EyePointsOf(
@@ -39,6 +38,8 @@ ExpectedEye ExpectEye(const ObservedHead& base, const EyePoints& lids, fsm::Side
           .iris_radius_px = pixels_per_mm * base.surface().eyes[side].iris_radius,
           .pixels_per_mm = pixels_per_mm};
 }
+
+}  // namespace
 
 glm::vec2 LidShiftPx(const PhotoIris& iris) {
   if (!iris.seen) return {0, 0};

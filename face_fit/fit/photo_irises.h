@@ -8,9 +8,6 @@
 
 namespace facefit {
 
-/// Returns where a photo shows an eye with these lids if it is formed as the base head's.
-ExpectedEye ExpectEye(const ObservedHead& base, const EyePoints& lids, fsm::Side side);
-
 /// An iris in a photo.
 struct PhotoIris {
   IrisCircle circle;  ///< as expected, with a contrast of 0, if the photo does not show it

@@ -52,18 +52,14 @@ template FloatImage Blurred(const FloatImage& image, int reach);
 template VectorImage Blurred(const VectorImage& image, int reach);
 template Raster<glm::mat3> Blurred(const Raster<glm::mat3>& image, int reach);
 
-template <typename T>
-Raster<T> Closed(const Raster<T>& image, int reach) {
-  Raster<T> out(image.width, image.height);
+VectorImage Closed(const VectorImage& image, int reach) {
+  VectorImage out(image.width, image.height);
   cv::Mat closed = View(out);
   const int square = 2 * reach + 1;
   cv::morphologyEx(View(image), closed, cv::MORPH_CLOSE,
                    cv::getStructuringElement(cv::MORPH_RECT, {square, square}));
   return out;
 }
-
-template FloatImage Closed(const FloatImage& image, int reach);
-template VectorImage Closed(const VectorImage& image, int reach);
 
 void PushPullInpaint(fsm::Image& image, const Mask& weight) {
   StayOnThisThread();

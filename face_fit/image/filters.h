@@ -42,9 +42,8 @@ struct WeightedBlur {
 };
 
 /// Returns the morphological closing of each channel by squares of `2 * reach + 1` pixels (Serra
-/// 1982): fills dark spots that no such square fits into. For FloatImage and VectorImage.
-template <typename T>
-Raster<T> Closed(const Raster<T>& image, int reach);
+/// 1982): fills dark spots that no such square fits into.
+VectorImage Closed(const VectorImage& image, int reach);
 
 /// Inpaints pixels of low weight with the colours around them, averaged over a wider area the
 /// farther they are (push and pull through a pyramid of halved images; Gortler, Grzeszczuk,

@@ -1,5 +1,7 @@
 #include "face_fit/image/photo.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -12,6 +14,7 @@ namespace facefit {
 namespace {
 
 constexpr std::uint8_t kPngStart[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10};
+constexpr std::int64_t kMaxPixels = 50'000'000;
 /// Shortest side, pixels; smaller photos show nothing of a face.
 constexpr int kMinSize = 64;
 
@@ -35,10 +38,10 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 24) return vm::Fail(vm::Errc::kBadValue, "the PNG file ends too early");
   const std::int64_t width = fsm::BigEndian(bytes, 16, 4), height = fsm::BigEndian(bytes, 20, 4);
   if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels) {
-    return vm::Fail(vm::Errc::kBadValue, "the photo has " + std::to_string(width) + " x " +
-                                             std::to_string(height) + " pixels; at most " +
-                                             std::to_string(kMaxPixels / 1'000'000) +
-                                             " million are read: scale it down");
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("the photo has {} x {} pixels; at most {} million are read: scale it down",
+                    width, height, kMaxPixels / 1'000'000));
   }
   auto image = fsm::DecodePng(bytes);
   if (!image) {
@@ -69,10 +72,10 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most
                                                 "file is expected");
   if (!image) return image;
   if (std::min(image->width, image->height) < kMinSize) {
-    return vm::Fail(vm::Errc::kBadValue, "the photo is only " + std::to_string(image->width) +
-                                             " x " + std::to_string(image->height) +
-                                             " pixels; at least " + std::to_string(kMinSize) +
-                                             " on each side are needed");
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("the photo is only {} x {} pixels; at least {} on each side are needed",
+                    image->width, image->height, kMinSize));
   }
   *image = ScaledToFit(std::move(*image), most_size);
   if (orientation != 1) *image = Turned(*image, orientation);

@@ -9,9 +9,7 @@
 
 namespace facefit {
 
-/// Greatest number of pixels of a photo; longest side of a photo that is worked on, and of one that
-/// a part is cut from.
-inline constexpr std::int64_t kMaxPixels = 50'000'000;
+/// Longest side of a photo that is worked on, and of one that a part is cut from.
 inline constexpr int kWorkingSize = 1600, kFineSize = 4800;
 
 /// Reads a photo (JPEG or PNG, detected by content), sets it upright by its EXIF orientation and

@@ -25,11 +25,11 @@ float MeanGap(std::span<const glm::vec3> points, auto edges_at) {
   }
   return sum / 3;
 }
-std::pair<PointIndex, PointIndex> LipsAt(std::size_t k) {
+std::pair<PointIndex, PointIndex> LipPointsAt(std::size_t k) {
   constexpr std::size_t kMiddle = point::kUpperInnerLip.size() / 2;
   return {point::kUpperInnerLip[kMiddle - 1 + k], point::kLowerInnerLip[kMiddle - 1 + k]};
 }
-std::pair<PointIndex, PointIndex> LidsAt(fsm::Side side, std::size_t k) {
+std::pair<PointIndex, PointIndex> LidPointsAt(fsm::Side side, std::size_t k) {
   const auto& outline = point::kEyeOutline[side];
   return {outline[kUpperMiddle - 1 + k], outline[kLowerMiddle + 1 - k]};
 }
@@ -66,7 +66,7 @@ FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> firs
   for (glm::vec3& p : points) p = back(p);
 
   FaceMeasures measures{.certainty = found.face.certainty};
-  measures.gap_mm = MeanGap(points, LipsAt);
+  measures.gap_mm = MeanGap(points, LipPointsAt);
   measures.width_mm = glm::distance(points[point::kMouthRight], points[point::kMouthLeft]);
   measures.jaw_mm = points[point::kNoseBottom].y - points[point::kChin].y;
   const float eyes = 0.25F * (points[point::kEyeOuterRight].y + points[point::kEyeInnerRight].y +
@@ -74,7 +74,7 @@ FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> firs
   constexpr fsm::Sided<PointIndex> kCorner{point::kMouthRight, point::kMouthLeft};
   for (const fsm::Side side : fsm::kSides) {
     measures.corner_up_mm[side] = points[kCorner[side]].y - points[point::kNoseBottom].y;
-    measures.eye_mm[side] = MeanGap(points, [side](std::size_t k) { return LidsAt(side, k); });
+    measures.eye_mm[side] = MeanGap(points, [side](std::size_t k) { return LidPointsAt(side, k); });
     measures.brow_inner_mm[side] = Middle(points, point::kBrowInner[side]).y - eyes;
     measures.brow_outer_mm[side] = Middle(points, point::kBrowOuter[side]).y - eyes;
   }

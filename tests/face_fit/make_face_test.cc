@@ -12,20 +12,6 @@
 namespace facefit {
 namespace {
 
-TEST(ChooseFaceTest, FacesAreCountedFromOneAndThereIsNoOther) {
-  std::vector<FoundFace> faces(2);
-  faces[1].score = 0.6F;
-  ASSERT_TRUE(ChooseFace(faces, 2));
-  EXPECT_EQ(ChooseFace(faces, 2)->score, 0.6F);
-  for (const int number : {-1, 0, 3}) {
-    const auto face = ChooseFace(faces, number);
-    ASSERT_FALSE(face) << number;
-    EXPECT_EQ(face.error().text,
-              "face " + std::to_string(number) + ": there are 2, counted from the largest");
-  }
-  EXPECT_FALSE(ChooseFace({}, 1));
-}
-
 using MakeFaceTest = NetworkTest;
 
 fsm::Image GreyPhoto() {
@@ -39,6 +25,16 @@ TEST_F(MakeFaceTest, WhereNoFaceIsFoundTheFigureAloneIsCutOut) {
     EXPECT_FALSE(front.face);
     EXPECT_EQ(front.photo.face_count, 0);
     EXPECT_EQ(front.photo.figure.opacity.width, 200);
+  }
+}
+
+TEST_F(MakeFaceTest, FacesAreCountedFromOneAndThereIsNoOther) {
+  for (const int number : {-1, 0, 2}) {
+    const auto front = PrepareFront(*networks_, Galatea(), Galatea().portrait().image,
+                                    FaceNumber{number}, PhotoExtent::kWhole);
+    ASSERT_FALSE(front) << number;
+    EXPECT_EQ(front.error().text,
+              "face " + std::to_string(number) + ": there are 1, counted from the largest");
   }
 }
 

@@ -24,8 +24,8 @@ constexpr float kDarkestSkin = 20;
 // a crease only along its line, and a point that is a pixel off must not decide.
 constexpr float kRotationsRad[] = {-0.1F, 0, 0.1F}, kBarOffsetsMm[] = {-2, 0, 2};
 
-/// Returns the contrast of a bar as BridgeContrast does, for one offset to the person's left and
-/// one rotation.
+/// Returns the contrast of a bar across the bridge of the nose to the skin above and below it,
+/// divided by the skin's brightness, for one offset to the person's left and one rotation.
 float BarAcross(const FoundFace& face, const fsm::Image& photo, float offset_mm,
                 float rotation_rad) {
   const glm::vec2 right = face.PixelOf(point::kEyeInnerRight),
@@ -69,14 +69,15 @@ float BarAcross(const FoundFace& face, const fsm::Image& photo, float offset_mm,
 
 }  // namespace
 
-float BridgeContrast(const FoundFace& face, const fsm::Image& photo) {
+bool WearsGlasses(const FoundFace& face, const fsm::Image& photo) {
   std::vector<float> contrasts;
   for (const float rotation_rad : kRotationsRad) {
     for (const float offset_mm : kBarOffsetsMm) {
       contrasts.push_back(BarAcross(face, photo, offset_mm, rotation_rad));
     }
   }
-  return Median(std::move(contrasts));
+  constexpr float kGlassesContrast = 0.11F;
+  return Median(std::move(contrasts)) > kGlassesContrast;
 }
 
 }  // namespace facefit

@@ -61,11 +61,12 @@ class ToPhoto {
     const Eigen::Vector3d p = map_ * Eigen::Vector3d(mm.x, -mm.y, 1);
     return {static_cast<float>(p.x()), static_cast<float>(p.y())};
   }
-  float pixels_per_mm() const { return std::max(std::hypot(cosine(), sine()), 1e-6F); }
+  float pixels_per_mm() const {
+    const auto cosine = static_cast<float>(map_(0, 0)), sine = static_cast<float>(map_(1, 0));
+    return std::max(std::hypot(cosine, sine), 1e-6F);  // both times the scale
+  }
 
  private:
-  float cosine() const { return static_cast<float>(map_(0, 0)); }  // times the scale
-  float sine() const { return static_cast<float>(map_(1, 0)); }
   Eigen::Matrix3d map_;
 };
 

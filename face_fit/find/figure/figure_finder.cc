@@ -1,6 +1,7 @@
 #include "face_fit/find/figure/figure_finder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

@@ -223,8 +223,7 @@ Mask GuidedUpsampling(const fsm::Image& small, const Mask& opacity, const fsm::I
   });
 }
 
-}  // namespace
-
+/// Returns the opacity of CutOutFigure.
 Mask Matte(const fsm::Image& photo, const Mask& person) {
   const int longer = std::max(photo.width, photo.height);
   Mask out;
@@ -239,6 +238,8 @@ Mask Matte(const fsm::Image& photo, const Mask& person) {
   for (float& v : out.values) v = glm::clamp((v - kNearlyNone) / (1 - 2 * kNearlyNone), 0.0F, 1.0F);
   return out;
 }
+
+}  // namespace
 
 fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity) {
   // Blurred foreground and background colours, corrected by the remaining difference to the photo

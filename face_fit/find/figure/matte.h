@@ -5,10 +5,6 @@
 
 namespace facefit {
 
-/// Computes the alpha matte of a figure: 1 inside, 0 outside, between at soft edges and strands of
-/// hair. `person`: a rough estimate, 0..1; pixels far from its outline keep it.
-Mask Matte(const fsm::Image& photo, const Mask& person);
-
 /// Returns the figure's colours without the background's light in its edge, continued beyond the
 /// edge.
 fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity);
@@ -18,7 +14,9 @@ struct FigureCutout {
   fsm::Image colours;
   Mask opacity;
 };
-/// Runs Matte and ForegroundColours. `person`: as for Matte.
+/// Cuts out a figure: its opacity is 1 inside, 0 outside, between at soft edges and strands of
+/// hair; its colours are ForegroundColours. `person`: a rough estimate of the opacity, 0..1; pixels
+/// far from its outline keep it.
 FigureCutout CutOutFigure(const fsm::Image& photo, const Mask& person);
 
 }  // namespace facefit

@@ -47,7 +47,7 @@ fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3&
 }
 
 fsm::FaceFeature FeatureOf(PointIndex i) {
-  // Inner lips are kPlain: where the lips meet, the nearest vertex may be the other lip's.
+  // Inner lips are kNone: where the lips meet, the nearest vertex may be the other lip's.
   if (Contains(point::kUpperOuterLip, i)) return fsm::FaceFeature::kUpperLip;
   if (Contains(point::kLowerOuterLip, i)) return fsm::FaceFeature::kLowerLip;
   for (const fsm::Side side : fsm::kSides) {

@@ -35,8 +35,8 @@ class SmileShadeTest : public NetworkTest {
     map_ = {.width = kMapSize, .height = kMapSize, .rgba = {}};
     for (std::size_t i = 0; i < texels_->size(); ++i) {
       const float y = Height(i);
-      const bool band = std::abs(y - middle()) < 5 ||
-                        y > Galatea().head().Landmark("nasion").y + kBrowsEndMm + 10;
+      const bool band =
+          std::abs(y - middle()) < 5 || y > Galatea().head().Landmark("nasion").y + 37;
       const int grain = static_cast<int>(i * 7919 % 13) - 6;
       const auto c = static_cast<std::uint8_t>((band ? 190 : 150) + grain);
       map_.rgba.insert(map_.rgba.end(), {c, c, c, 255});

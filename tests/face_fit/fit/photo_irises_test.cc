@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/image/plane.h"
+#include "tests/face_fit/grey_image.h"
 #include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
@@ -27,15 +28,20 @@ class PhotoIrisesTest : public NetworkTest {
     const fsm::Side side = fsm::Side::kLeft;
     const glm::vec2 down = Rotated({0, 1}, kLeanRad);
     const PhotoIris iris{{Centre(side) + kScale * below_mm * down, 10},
-                         ExpectEye(Galatea(), Lids(side), side),
+                         {Lids(side), Centre(side), 10, kScale},
                          seen};
     return Rotated(LidShiftPx(iris), -kLeanRad) / kScale;
   }
 };
 
 TEST_F(PhotoIrisesTest, AnIrisIsExpectedInTheMiddleOfTheBaseHeadsEye) {
+  FoundFace face;
+  for (PointIndex i = 0; i < kNetworkPoints; ++i) {
+    face.points[i] = glm::vec3(PixelOf(Galatea().AtRest(i)), 0);
+  }
+  const PhotoIrises irises = FindPhotoIrises(Galatea(), face, EvenGreyImage(600));
   for (const fsm::Side side : fsm::kSides) {
-    const ExpectedEye eye = ExpectEye(Galatea(), Lids(side), side);
+    const ExpectedEye& eye = irises.eyes[side].expected;
     EXPECT_LT(glm::distance(eye.iris_centre_px, Centre(side)), 0.01F);
     EXPECT_NEAR(eye.pixels_per_mm, kScale, 0.001F);
   }

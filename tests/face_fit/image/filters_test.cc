@@ -25,9 +25,14 @@ TEST(FiltersTest, AtTheEdgesTheMeanIsOfWhatLiesInTheImage) {
 }
 
 TEST(FiltersTest, AClosingFillsWhatIsNarrowAndDarkAndKeepsWhatIsBright) {
-  const FloatImage out = Closed(Of(7, 1, {5, 5, 1, 5, 9, 5, 5}), 1);
-  EXPECT_EQ(out.values, (std::vector<float>{5, 5, 5, 5, 9, 5, 5}));
-  EXPECT_EQ(Closed(Of(7, 1, {5, 1, 1, 1, 1, 1, 5}), 1).values[3], 1) << "wider than the square";
+  const auto closed = [](const FloatImage& row) {
+    const auto out = Closed(
+        VectorImage::From(row.width, 1, [&](int x, int) { return glm::vec3(row(x, 0), 0, 7); }), 1);
+    return FloatImage::From(row.width, 1, [&](int x, int) { return out(x, 0).r; });
+  };
+  EXPECT_EQ(closed(Of(7, 1, {5, 5, 1, 5, 9, 5, 5})).values,
+            (std::vector<float>{5, 5, 5, 5, 9, 5, 5}));
+  EXPECT_EQ(closed(Of(7, 1, {5, 1, 1, 1, 1, 1, 5})).values[3], 1) << "wider than the square";
 }
 
 TEST(FiltersTest, AWholeImageThatIsKnownIsNearestToItself) {

@@ -32,7 +32,7 @@ TEST(MatteTest, FindsTheSoftEdgeThatTheRoughOutlineMisses) {
   // A pixel too large, and as blurred as a network's.
   const FloatImage rough = Blurred(FieldOf([](glm::vec2 p) { return Disc(p, 51, 1); }), 1);
   EXPECT_GT(MeanDifference(rough, truth), 0.2F);
-  const FloatImage found = Matte(photo, rough);
+  const FloatImage found = CutOutFigure(photo, rough).opacity;
   EXPECT_LT(MeanDifference(found, truth), 0.06F);
   // What is as good as nothing or all is that, to the last bit.
   int between = 0, whole = 0;
@@ -51,7 +51,7 @@ TEST(MatteTest, BlackHairBeforeAWhiteWallIsParted) {
   const fsm::Image photo =
       Painted([](glm::vec2 p) { return glm::vec3(255 * (1 - Disc(p, 50, 4))); });
   const FloatImage rough = Blurred(FieldOf([](glm::vec2 p) { return Disc(p, 51, 1); }), 1);
-  EXPECT_LT(MeanDifference(Matte(photo, rough), truth), 0.06F);
+  EXPECT_LT(MeanDifference(CutOutFigure(photo, rough).opacity, truth), 0.06F);
 }
 
 TEST(MatteTest, StrandsOfHairAreKeptAndTheSkyBetweenThemIsNot) {
@@ -63,7 +63,7 @@ TEST(MatteTest, StrandsOfHairAreKeptAndTheSkyBetweenThemIsNot) {
   const auto part = [&](glm::vec2 p) { return std::max(Disc(p, 50, 2), strand(p)); };
   const fsm::Image photo = Painted([&](glm::vec2 p) { return glm::mix(Sky(p), Hair(p), part(p)); });
   const FloatImage found =
-      Matte(photo, Blurred(FieldOf([](glm::vec2 p) { return Disc(p, 50, 1); }), 2));
+      CutOutFigure(photo, Blurred(FieldOf([](glm::vec2 p) { return Disc(p, 50, 1); }), 2)).opacity;
   float hair = 0, hairs = 0, sky = 0, skies = 0;
   for (int y = 20; y < kDiscSide / 2 - 30; ++y) {
     for (int x = kDiscSide / 2 - 20; x < kDiscSide / 2 + 20; ++x) {
@@ -86,7 +86,7 @@ TEST(MatteTest, DoubtOverAWideAreaIsDecided) {
       Painted([&](glm::vec2 p) { return glm::mix(Sky(p), glm::vec3(235), cap(p)); });
   const FloatImage doubt =
       FieldOf([&](glm::vec2 p) { return cap(p) * (p.x < kDiscSide / 2 ? 0.65F : 1.0F); });
-  const FloatImage found = Matte(photo, doubt);
+  const FloatImage found = CutOutFigure(photo, doubt).opacity;
   float least = 1;
   for (int x = 35; x < kDiscSide / 2; ++x) {
     least = std::min(least, found(x, kDiscSide / 2));
@@ -108,7 +108,7 @@ TEST(MatteTest, ALargePhotoHasTheEdgeOfItsOwnPixels) {
       rough(x, y) = glm::smoothstep(390.0F, 402.0F, static_cast<float>(x));
     }
   }
-  const FloatImage found = Matte(photo, rough);
+  const FloatImage found = CutOutFigure(photo, rough).opacity;
   for (const int x : {390, 397, 399, 400, 402, 410}) {
     EXPECT_NEAR(found(x, 100), part(x), 0.15F) << x;
   }
