@@ -117,7 +117,8 @@ TEST_F(FsmProcessTest, BadOptionsAndTablesEndInOneSentence) {
   std::filesystem::create_directory(folder / "tables");
   std::ofstream(folder / "tables/emotions.txt") << "HAPPY 1 99:1\n";
   EXPECT_EQ(Run("--headless --tables tables", ""), 1);
-  EXPECT_TRUE(err.starts_with("fsm: tables/emotions.txt:1: '99' is not an action unit")) << err;
+  EXPECT_TRUE(err.starts_with("fsm: tables/emotions.txt:1: '99' at column 9 is not an action unit"))
+      << err;
   EXPECT_EQ(Run("--headless -C nowhere.txt", ""), 1);
   EXPECT_EQ(err, "fsm: cannot read 'nowhere.txt': No such file or directory\n");
 }

@@ -123,7 +123,7 @@ TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
   expect(ReadPhonemeTable("p.txt", "a a nan\n", shapes),
          "p.txt:1: 'nan' found, a strength expected");
   expect(ReadExpressions("e.txt", "HAPPY 1 12:0.5 99:1\n", names),
-         "e.txt:1: '99' is not an action unit");
+         "e.txt:1: '99' at column 16 is not an action unit");
   expect(ReadExpressions("e.txt", "HAPPY 2 12:0.5\n", names),
          "e.txt:1: pattern 2 found, 1 expected");
   expect(ReadExpressions("e.txt", "posed HAPPY 1 2 3 4\n", names), "'HAPPY' has no pattern 1");

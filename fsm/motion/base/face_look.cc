@@ -1,10 +1,6 @@
 #include "fsm/motion/base/face_look.h"
 
-#include <fmt/format.h>
-
-#include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/base/words.h"
 #include "fsm/motion/base/track.h"
 #include "fsm/motion/base/unit_names.h"
 
@@ -31,47 +27,16 @@ void AddTo(FaceLook& a, const FaceLook& b, double weight) {
   for (std::size_t i = 0; i < a.residuals.size(); ++i) add(a.residuals[i], b.residuals[i]);
 }
 
-void SetUnit(FaceLook& look, const UnitSetting& unit) {
-  const auto index = static_cast<std::size_t>(unit.number);
-  for (const Side side : kSides) {
-    if (unit.sides[side]) look.au[side][index] = static_cast<float>(unit.strength);
-  }
-}
-
-bool SetGaze(FaceLook& look, std::string_view word) {
-  const std::string_view key = ReadUntil(":", word);
-  const auto down = ParseNumber(ReadUntil(",", word)), right = ParseNumber(word);
-  if ((key != "gaze" && key != "gazeL" && key != "gazeR") || !down || !right) return false;
-  const EyeAngles angles{static_cast<float>(*down), static_cast<float>(*right)};
-  if (key != "gazeR") look.gaze.left = angles;
-  if (key != "gazeL") look.gaze.right = angles;
-  return true;
-}
-
 FaceLook ReadLook(const TableRow& row, std::size_t first, const UnitNames& names) {
-  FaceLook look;
-  for (std::size_t i = first; i < row.size(); ++i) {
-    const std::string_view word = row.Word(i);
-    if (word.starts_with("gaze")) {
-      if (SetGaze(look, word)) continue;
-      row.Refuse(fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
-    }
-    const std::size_t colon = word.find(':');
-    if (colon == std::string_view::npos) {
-      row.Refuse(fmt::format("'{}' found, AU:WEIGHT expected", word));
-    }
-    const auto unit = ParseUnitName(word.substr(0, colon), names);
-    if (!unit) row.Refuse(unit.error().text);
-    const std::string_view value = word.substr(colon + 1);
-    const auto weight = ParseNumber(value);
-    if (!weight || *weight < 0 || *weight > 2) {
-      row.Refuse(fmt::format("'{}' found, a weight from 0 to 2 expected", value));
-    }
-    UnitSetting setting{*unit, *weight};
-    KeepOwnSide(setting, names);
-    SetUnit(look, setting);
+  if (row.size() <= first) return {};
+  std::string
+      text;  // with blanks for the words before, so that messages count columns as people do
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    text += i < first ? std::string(row.Word(i).size() + 1, ' ') : row.Word(i) + " ";
   }
-  return look;
+  const auto look = ParseLook(text, names);
+  if (!look) row.Refuse(look.error().text);
+  return *look;
 }
 
 vm::Result<BlendShapes> ReadBlendShapes(const std::string& name, std::string_view text,

@@ -11,7 +11,6 @@ namespace fsm {
 
 class TableRow;
 struct UnitNames;
-struct UnitSetting;
 
 /// The strengths of all action units, and the rotation of the eyes that goes with them.
 struct FaceLook {
@@ -35,11 +34,8 @@ void ForEachUnit(UnitValues& to, const UnitValues& other, const Change& change) 
 /// Adds weight * b to `a`.
 void AddTo(FaceLook& a, const FaceLook& b, double weight);
 
-void SetUnit(FaceLook& look, const UnitSetting& unit);
-/// Sets the gaze by a word gaze[L|R]:DOWN,RIGHT (degrees); returns false for any other word.
-bool SetGaze(FaceLook& look, std::string_view word);
-/// Reads the words of a row from index `first` on: AU[L|R]:WEIGHT or gaze[L|R]:DOWN,RIGHT
-/// (degrees). Throws TableError.
+/// Reads the words of a row from index `first` on as ParseLook does; without any the look is at
+/// rest. Throws TableError.
 FaceLook ReadLook(const TableRow& row, std::size_t first, const UnitNames& names);
 
 /// What each of ARKit's blend shapes looks like, by name; read from tables/arkit.txt.

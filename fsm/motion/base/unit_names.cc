@@ -187,6 +187,24 @@ vm::Result<ParsedUnit> ReadUnit(std::span<const Word>& words, const UnitNames& n
   return unit;
 }
 
+void SetUnit(FaceLook& look, const UnitSetting& unit) {
+  const auto index = static_cast<std::size_t>(unit.number);
+  for (const Side side : kSides) {
+    if (unit.sides[side]) look.au[side][index] = static_cast<float>(unit.strength);
+  }
+}
+
+/// Sets the gaze by a word gaze[L|R]:DOWN,RIGHT (degrees); returns false for any other word.
+bool SetGaze(FaceLook& look, std::string_view word) {
+  const std::string_view key = ReadUntil(":", word);
+  const auto down = ParseNumber(ReadUntil(",", word)), right = ParseNumber(word);
+  if ((key != "gaze" && key != "gazeL" && key != "gazeR") || !down || !right) return false;
+  const EyeAngles angles{static_cast<float>(*down), static_cast<float>(*right)};
+  if (key != "gazeR") look.gaze.left = angles;
+  if (key != "gazeL") look.gaze.right = angles;
+  return true;
+}
+
 HeadEyeCode ReadCode(const TableRow& row) {
   std::array<float, 8> v{};
   for (std::size_t i = 0; i < v.size(); ++i) {
