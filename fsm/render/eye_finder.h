@@ -22,7 +22,6 @@ struct MeasuredEye {
 /// margins are the skin closest to them. Made once per head, used every frame.
 class EyeFinder {
  public:
-  EyeFinder() = default;
   /// REQUIRES: `rest` belongs to `surface`. A head without a kSclera part has no eyes.
   EyeFinder(const HeadSurface& surface, const HeadVertices& rest);
   bool found() const { return !white_.right.empty() && !white_.left.empty(); }

@@ -16,8 +16,8 @@ EyeMaterial::EyeMaterial(const GlFunctions& gl, const Appearance& appearance)
           CompileLit(gl, appearance, "eye", {embedded::eye_vertex()}, embedded::eye_fragment())) {}
 
 void EyeMaterial::Begin(const MaterialFrame& frame) const {
-  if (!frame.head.measures.eyes.found()) return;
-  const auto eyes = frame.head.measures.eyes.Measure(frame.vertices);
+  if (!frame.head.eyes.found()) return;
+  const auto eyes = frame.head.eyes.Measure(frame.vertices);
   const HeadSurface& surface = *frame.head.surface;
   // On a grey photo the sclera is grey, and so is the caruncle beside it.
   const glm::vec3 white = surface.eyes.right.white_colour;
@@ -72,7 +72,7 @@ void EyeMaterial::SetPictures(const MaterialFrame& frame, const Sided<MeasuredEy
   std::array<glm::vec4, 2> iris_rect, ball_rect, lid_heights;
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
-    const MeasuredEye& rest = frame.head.measures.resting_eyes[side];
+    const MeasuredEye& rest = frame.head.resting_eyes[side];
     const MeasuredEye& eye = eyes[side];
     iris_rect[i] = pictures[side].iris;
     ball_rect[i] = pictures[side].ball;

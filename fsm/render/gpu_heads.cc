@@ -35,7 +35,7 @@ GpuHead& GpuHeads::Acquire(const Head& head) {
 void GpuHeads::Move(const Head& head, std::span<const Pane> panes) {
   GpuHead& on_gpu = Acquire(head);
   if (!on_gpu.rig)
-    on_gpu.rig.emplace(gl_, rig_programs_, head, on_gpu.description.measures.Vertices());
+    on_gpu.rig.emplace(gl_, rig_programs_, head, on_gpu.description.MeasuredVertices());
   on_gpu.rig->Move(head, panes);
 }
 

@@ -96,8 +96,7 @@ HeadTextures::Sampling HeadTextures::SamplingOf(const Image& base_colour, float 
 
 void HeadTextures::LoadBaseColour(const HeadDescription& head, float samples_per_mm) {
   const Image& base_colour = *head.base_colour();
-  const Sampling sampling =
-      SamplingOf(base_colour, head.measures.photo_texels_per_mm / samples_per_mm);
+  const Sampling sampling = SamplingOf(base_colour, head.photo_texels_per_mm / samples_per_mm);
   if (base_colour_ == sampling) return;
   base_colour_ = sampling;
   const auto halved = [&sampling](int side) { return std::max(side >> sampling.level, 1); };

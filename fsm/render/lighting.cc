@@ -36,7 +36,7 @@ MaterialFrame FrameOf(const Appearance& appearance, const FrameCamera& view,
   const Lamps lamps = LampsOf(appearance, scene);
   const float room = appearance.photo_room_light;
   const float usual = appearance.lamp.key.light.g + appearance.lamp.fill.light.g + room;
-  const auto shadows = head.measures.shadows.Measure(vertices);
+  const auto shadows = head.shadows.Measure(vertices);
   MaterialFrame frame{
       .view = view,
       .head = head,

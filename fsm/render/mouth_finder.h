@@ -18,7 +18,6 @@ class MouthFinder {
  public:
   static constexpr int kColumns = 11;  ///< of points on the lips; the shader has it as well
 
-  MouthFinder() = default;
   explicit MouthFinder(const MouthVertices& mouth);
 
   /// The opening in the mouth's own frame, millimetres: x from the agent's right corner (-) to the

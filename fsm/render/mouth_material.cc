@@ -30,7 +30,7 @@ float MouthMaterial::jaw_drop_mm() const {
 }
 
 void MouthMaterial::Begin(const MaterialFrame& frame) {
-  opening_ = frame.head.measures.mouth.Measure(frame.vertices);
+  opening_ = frame.head.mouth.Measure(frame.vertices);
   if (!opening_) return;
   const glm::mat3 rotation(frame.view.figure_to_world);
   const glm::mat3 to_world =

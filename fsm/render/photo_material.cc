@@ -41,7 +41,7 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
     program->Set("lips_apart", glm::smoothstep(0.4f, 2.5f, mouth.gap_mm()));
     // The photo is darkened below the chin; without one, nothing lies below it.
     constexpr float kBelowAll = -1e4f;  // millimetres
-    program->Set("chin_y", frame.head.measures.chin_y.value_or(kBelowAll));
+    program->Set("chin_y", frame.head.chin_y.value_or(kBelowAll));
     program->Set("chin_drop", mouth.jaw_drop_mm());
   }
 }

@@ -14,7 +14,6 @@ namespace fsm {
 /// and carried along as it moves. Made once per head, used every frame.
 class ShadowFinder {
  public:
-  ShadowFinder() = default;
   /// REQUIRES: `rest` belongs to `surface`. A head without skin casts no shadow.
   ShadowFinder(const HeadSurface& surface, const HeadVertices& rest);
 
