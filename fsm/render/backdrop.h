@@ -17,12 +17,12 @@ class Backdrop {
   Backdrop(const Backdrop&) = delete;
   Backdrop& operator=(const Backdrop&) = delete;
 
-  /// Draws the background over the bound target, which is a picture of `width` x `height` pixels.
-  /// The background's picture is uploaded only if it has changed.
+  /// Draws the background over the bound framebuffer, which is a picture of `width` x `height`
+  /// pixels. The background's picture is uploaded only if it has changed.
   void Draw(const Background& background, int width, int height);
   /// Blends the background over what was drawn before, which thereby fades; `opacity` 1 hides it
   /// fully. Without a background the premultiplied colours fade with the opacity. REQUIRES: the
-  /// last Draw was of this background into the target that is bound now; depth test off.
+  /// last Draw was of this background into the framebuffer that is bound now; depth test off.
   void BlendOver(const Background& background, float opacity);
 
  private:

@@ -14,7 +14,7 @@ struct FrameCamera {
   glm::mat4 figure_to_world;  ///< from the head's frame; rotation, translation, uniform scale
   glm::mat4 world_to_clip;
   glm::vec3 eye;             ///< the viewer's position in the world's frame
-  float samples_per_mm = 1;  ///< of the target along one side, at the face's depth
+  float samples_per_mm = 1;  ///< of the framebuffer along one side, at the face's depth
 };
 
 /// Frames head and shoulders as a portrait does: at the height of the mouth; in narrow pictures the

@@ -40,7 +40,8 @@ class SwitchedContext : public RenderContext {
   static inline thread_local SwitchedContext* current_ = nullptr;
 };
 
-/// A context without a window. Its size is only stored: the renderer draws into its own targets.
+/// A context without a window. Its size is only stored: the renderer draws into its own
+/// framebuffers.
 class OffScreenContext : public SwitchedContext {
  public:
   OffScreenContext(int width, int height) : width_(width), height_(height) {}

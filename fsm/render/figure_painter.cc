@@ -13,14 +13,14 @@ bool IsDrawnFromBothSides(const HeadSurface::Part& part) {
 
 void FigurePainter::Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& vertices,
                          const FrameCamera& view, const Scene& scene, float error_pixels,
-                         GlTarget& target) {
+                         GlFramebuffer& framebuffer) {
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
   materials_.BeginFrame(view, on_gpu, vertices, scene);
   const bool lines = scene.view_mode != ViewMode::kTexture;
   const float error_mm = error_pixels * kSamplesAlong / view.samples_per_mm;
   const auto& parts = on_gpu.arrays.PartsWithin(head, lines ? 0 : error_mm);
-  if (on_gpu.description.skin.painting()) WarmUp(parts, target);
+  if (on_gpu.description.skin.painting()) WarmUp(parts, framebuffer);
   on_gpu.textures.Load(on_gpu.description, view.samples_per_mm);
   if (scene.view_mode == ViewMode::kTextureWithWireframe) {
     gl_.Enable(GL_POLYGON_OFFSET_FILL);
@@ -51,7 +51,7 @@ void FigurePainter::DrawParts(const std::vector<DrawnPart>& parts) {
 /// A software driver compiles a shader on first use, which takes far longer than a frame. It is
 /// made to do so while the skin is painted: one invisible triangle of each part, with and without
 /// creases.
-void FigurePainter::WarmUp(const std::vector<DrawnPart>& parts, GlTarget& target) {
+void FigurePainter::WarmUp(const std::vector<DrawnPart>& parts, GlFramebuffer& framebuffer) {
   gl_.Viewport(0, 0, 0, 0);
   gl_.CullFace(GL_BACK);
   const bool creased = materials_.creased();
@@ -65,7 +65,7 @@ void FigurePainter::WarmUp(const std::vector<DrawnPart>& parts, GlTarget& target
     }
   }
   gl_.Disable(GL_CULL_FACE);
-  target.Bind();
+  framebuffer.Bind();
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
 }
 

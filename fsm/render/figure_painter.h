@@ -9,8 +9,8 @@
 
 namespace fsm {
 
-/// Draws a head into the bound target: its parts by their materials, its mesh as lines. Destroy
-/// while its context is current.
+/// Draws a head into the bound framebuffer: its parts by their materials, its mesh as lines.
+/// Destroy while its context is current.
 class FigurePainter {
  public:
   /// `software`: whether the processor draws, through one of Mesa's software drivers. `gl` and
@@ -20,12 +20,13 @@ class FigurePainter {
   /// `vertices`: those that on_gpu.arrays is bound to, at least the measured ones.
   /// `error_pixels`: see Renderer::SetMaxErrorPixels.
   void Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& vertices,
-            const FrameCamera& view, const Scene& scene, float error_pixels, GlTarget& target);
+            const FrameCamera& view, const Scene& scene, float error_pixels,
+            GlFramebuffer& framebuffer);
 
  private:
   void DrawParts(const std::vector<DrawnPart>& parts);
   void DrawLines(const std::vector<DrawnPart>& parts, const Scene& scene);
-  void WarmUp(const std::vector<DrawnPart>& parts, GlTarget& target);
+  void WarmUp(const std::vector<DrawnPart>& parts, GlFramebuffer& framebuffer);
   void BeginBlending();
   void DrawTriangles(const HeadSurface::Part& part);
 

@@ -25,13 +25,13 @@ FrameReader::~FrameReader() {
   for (const Buffer& buffer : spare_buffers_) gl_.DeleteBuffers(1, &buffer.name);
 }
 
-std::uint64_t FrameReader::Begin(GlTarget& target, const ReadOptions& options) {
+std::uint64_t FrameReader::Begin(GlFramebuffer& framebuffer, const ReadOptions& options) {
   Frame& frame = frames_[++last_];
   frame.transparent = options.transparent;
   if (average_) {
-    BeginAverage(target, options.filter, frame);
+    BeginAverage(framebuffer, options.filter, frame);
   } else {
-    target.Read(frame.image, options.filter);
+    framebuffer.Read(frame.image, options.filter);
   }
   return last_;
 }
@@ -55,10 +55,10 @@ void FrameReader::Drop(std::uint64_t number) {
   }
 }
 
-void FrameReader::BeginAverage(const GlTarget& target, Filter filter, Frame& frame) {
+void FrameReader::BeginAverage(const GlFramebuffer& framebuffer, Filter filter, Frame& frame) {
   Image& image = frame.image;
-  image.width = target.width();
-  image.height = target.height();
+  image.width = framebuffer.width();
+  image.height = framebuffer.height();
   Buffer& buffer = frame.buffer;
   if (spare_buffers_.empty()) {
     gl_.GenBuffers(1, &buffer.name);
@@ -71,7 +71,7 @@ void FrameReader::BeginAverage(const GlTarget& target, Filter filter, Frame& fra
     gl_.BufferData(GL_SHADER_STORAGE_BUFFER, buffer.bytes, nullptr, GL_STREAM_READ);
   }
   gl_.ActiveTexture(GlUnit(TextureUnit::kPass));
-  gl_.BindTexture(GL_TEXTURE_2D, target.samples());
+  gl_.BindTexture(GL_TEXTURE_2D, framebuffer.samples());
   average_->Use();
   average_->Set("samples", TextureUnit::kPass);
   average_->Set("soft", filter == Filter::kSoft);

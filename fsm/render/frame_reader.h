@@ -27,10 +27,10 @@ class FrameReader {
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;
 
-  /// Returns the handle of the frame for End and Drop; the target may be drawn into again.
-  std::uint64_t Begin(GlTarget& target, const ReadOptions& options);
-  /// Waits for this frame only, not for later ones; the bytes are those of GlTarget::Read. Frames
-  /// may end in any order. Throws std::runtime_error if the driver does not return the data.
+  /// Returns the handle of the frame for End and Drop; the framebuffer may be drawn into again.
+  std::uint64_t Begin(GlFramebuffer& framebuffer, const ReadOptions& options);
+  /// Waits for this frame only, not for later ones; the bytes are those of GlFramebuffer::Read.
+  /// Frames may end in any order. Throws std::runtime_error if the driver does not return the data.
   void End(std::uint64_t frame, Image& out);
   void Drop(std::uint64_t frame);
 
@@ -45,7 +45,7 @@ class FrameReader {
     bool transparent = false;
   };
 
-  void BeginAverage(const GlTarget& target, Filter filter, Frame& frame);
+  void BeginAverage(const GlFramebuffer& framebuffer, Filter filter, Frame& frame);
   void EndAverage(const Frame& frame, Image& out);
 
   const GlFunctions& gl_;

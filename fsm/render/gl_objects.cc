@@ -76,7 +76,7 @@ std::optional<GLint> GlProgram::Changed(const char* name, std::span<const std::b
   return uniform.location;
 }
 
-GlTarget::GlTarget(const GlFunctions& gl, int width, int height)
+GlFramebuffer::GlFramebuffer(const GlFunctions& gl, int width, int height)
     : gl_(gl), width_(width), height_(height) {
   const int across = width * kSamplesAlong, up = height * kSamplesAlong;
   gl.GenFramebuffers(1, &frame_);
@@ -99,25 +99,25 @@ GlTarget::GlTarget(const GlFunctions& gl, int width, int height)
   }
 }
 
-void GlTarget::Delete() {
+void GlFramebuffer::Delete() {
   gl_.DeleteFramebuffers(1, &frame_);
   gl_.DeleteTextures(1, &colour_);
   gl_.DeleteRenderbuffers(1, &depth_);
 }
 
-void GlTarget::Bind() const {
+void GlFramebuffer::Bind() const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_);
   gl_.Viewport(0, 0, width_ * kSamplesAlong, height_ * kSamplesAlong);
 }
 
-void GlTarget::ReadRows(int from, int to, void* samples) const {
+void GlFramebuffer::ReadRows(int from, int to, void* samples) const {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl_.ReadPixels(0, from, width_ * kSamplesAlong, to - from + 1, GL_RGBA, GL_UNSIGNED_BYTE,
                  samples);
 }
 
-void GlTarget::Read(Image& out, Filter filter) {
+void GlFramebuffer::Read(Image& out, Filter filter) {
   // Reads few rows at a time, so that they stay in the cache until they are averaged.
   constexpr int kRowsAtOnce = 16;
   const std::size_t row = samples_in_row();
@@ -138,7 +138,7 @@ void GlTarget::Read(Image& out, Filter filter) {
   }
 }
 
-void GlTarget::Show(int x, int y) const {
+void GlFramebuffer::Show(int x, int y) const {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
   // A linear filter at half size averages exactly four samples.
   gl_.BlitFramebuffer(0, 0, width_ * kSamplesAlong, height_ * kSamplesAlong, x, y, x + width_,

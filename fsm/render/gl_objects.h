@@ -8,9 +8,11 @@
 #include <glm/vec4.hpp>
 #include <initializer_list>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -52,41 +54,14 @@ class GlProgram {
   void Use() const { gl_.UseProgram(id_); }
   /// Sets a uniform or an array of uniforms; a name that the program does not have is ignored.
   /// REQUIRES for all: the program is in use, `name` is a string literal.
-  void Set(const char* name, float value) const { Set(name, std::span(&value, 1)); }
-  void Set(const char* name, GLint value) const {
-    if (const auto location = Changed(name, std::as_bytes(std::span(&value, 1)))) {
-      gl_.Uniform1i(*location, value);
-    }
-  }
   void Set(const char* name, bool value) const { Set(name, GLint{value}); }
   void Set(const char* name, TextureUnit unit) const { Set(name, static_cast<GLint>(unit)); }
-  void Set(const char* name, const glm::vec3& value) const { Set(name, std::span(&value, 1)); }
-  void Set(const char* name, const glm::vec4& value) const { Set(name, std::span(&value, 1)); }
-  void Set(const char* name, const glm::mat3& value) const {
-    if (const auto location = Changed(name, std::as_bytes(std::span(&value, 1)))) {
-      gl_.UniformMatrix3fv(*location, 1, GL_FALSE, &value[0][0]);
-    }
-  }
-  void Set(const char* name, const glm::mat4& value) const { Set(name, std::span(&value, 1)); }
-  void Set(const char* name, std::span<const float> values) const {
-    if (const auto location = Changed(name, std::as_bytes(values))) {
-      gl_.Uniform1fv(*location, static_cast<GLsizei>(values.size()), values.data());
-    }
-  }
-  void Set(const char* name, std::span<const glm::vec3> values) const {
-    if (const auto location = Changed(name, std::as_bytes(values))) {
-      gl_.Uniform3fv(*location, static_cast<GLsizei>(values.size()), &values[0][0]);
-    }
-  }
-  void Set(const char* name, std::span<const glm::vec4> values) const {
-    if (const auto location = Changed(name, std::as_bytes(values))) {
-      gl_.Uniform4fv(*location, static_cast<GLsizei>(values.size()), &values[0][0]);
-    }
-  }
-  void Set(const char* name, std::span<const glm::mat4> values) const {
-    if (const auto location = Changed(name, std::as_bytes(values))) {
-      gl_.UniformMatrix4fv(*location, static_cast<GLsizei>(values.size()), GL_FALSE,
-                           &values[0][0][0]);
+  template <typename T>
+  void Set(const char* name, const T& value) const {
+    if constexpr (std::ranges::contiguous_range<T>) {
+      Upload(name, std::data(value), std::size(value));
+    } else {
+      Upload(name, &value, 1);
     }
   }
 
@@ -98,6 +73,26 @@ class GlProgram {
   /// Returns the location of a uniform if it exists and has another value: this check is far
   /// cheaper than a driver's look-up of a name or store of a value.
   std::optional<GLint> Changed(const char* name, std::span<const std::byte> value) const;
+  template <typename T>
+  void Upload(const char* name, const T* values, std::size_t size) const {
+    const auto location = Changed(name, std::as_bytes(std::span(values, size)));
+    if (!location) return;
+    const auto count = static_cast<GLsizei>(size);
+    if constexpr (std::is_same_v<T, GLint>) {
+      gl_.Uniform1iv(*location, count, values);
+    } else if constexpr (std::is_same_v<T, float>) {
+      gl_.Uniform1fv(*location, count, values);
+    } else if constexpr (std::is_same_v<T, glm::vec3>) {
+      gl_.Uniform3fv(*location, count, &values->x);
+    } else if constexpr (std::is_same_v<T, glm::vec4>) {
+      gl_.Uniform4fv(*location, count, &values->x);
+    } else if constexpr (std::is_same_v<T, glm::mat3>) {
+      gl_.UniformMatrix3fv(*location, count, GL_FALSE, &values[0][0][0]);
+    } else {
+      static_assert(std::is_same_v<T, glm::mat4>);
+      gl_.UniformMatrix4fv(*location, count, GL_FALSE, &values[0][0][0]);
+    }
+  }
   /// Links the attached shaders and deletes them.
   void Link(const char* name, std::initializer_list<GLuint> shaders);
 
@@ -108,15 +103,15 @@ class GlProgram {
 
 /// The framebuffer of a frame: colour and depth at twice the picture's size in each direction,
 /// averaged 2 x 2 on read-out. In software that is faster and better than multisampling: llvmpipe
-/// shades hidden pixels and blends each sample of a multisampled target separately, for which the
-/// many small triangles of a face all pay. Destroy while its context is current.
-class GlTarget {
+/// shades hidden pixels and blends each sample of a multisampled framebuffer separately, for which
+/// the many small triangles of a face all pay. Destroy while its context is current.
+class GlFramebuffer {
  public:
   /// Throws std::runtime_error if the driver cannot make it. Sizes are the finished picture's.
-  GlTarget(const GlFunctions& gl, int width, int height);
-  ~GlTarget() { Delete(); }
-  GlTarget(const GlTarget&) = delete;
-  GlTarget& operator=(const GlTarget&) = delete;
+  GlFramebuffer(const GlFunctions& gl, int width, int height);
+  ~GlFramebuffer() { Delete(); }
+  GlFramebuffer(const GlFramebuffer&) = delete;
+  GlFramebuffer& operator=(const GlFramebuffer&) = delete;
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -90,15 +90,15 @@ class GlRenderer : public Renderer {
   }
 
   void Read(Image& out) override {
-    assert(target_ && "Read before the first Draw");
+    assert(framebuffer_ && "Read before the first Draw");
     if (draws_on_gpu_) return EndRead(BeginRead(), out);
-    target_->Read(out, read_options_.filter);
+    framebuffer_->Read(out, read_options_.filter);
     if (read_options_.transparent) Unmultiply(out);
   }
 
   std::uint64_t BeginRead() override {
-    assert(target_ && "BeginRead before the first Draw");
-    return reader_.Begin(*target_, read_options_);
+    assert(framebuffer_ && "BeginRead before the first Draw");
+    return reader_.Begin(*framebuffer_, read_options_);
   }
   void EndRead(std::uint64_t frame, Image& out) override { reader_.End(frame, out); }
   void DropRead(std::uint64_t frame) override { reader_.Drop(frame); }
@@ -120,8 +120,8 @@ class GlRenderer : public Renderer {
   void DrawFrame(const Head& head, const Figure& figure, const Scene& scene, const auto& move) {
     const int width = viewport_.width > 0 ? viewport_.width : context_.width();
     const int height = viewport_.width > 0 ? viewport_.height : context_.height();
-    UseTarget(width, height);
-    target_->Bind();
+    UseFramebuffer(width, height);
+    framebuffer_->Bind();
     // A photo is soft, so hard edges beside it would stand out. Single hairs are thinner than a
     // pixel and would become rows of dots.
     const bool soft = HasBlendedLayers(head.surface()) || !head.surface().strands.empty();
@@ -135,32 +135,32 @@ class GlRenderer : public Renderer {
       const HeadVertices& vertices = move(on_gpu);
       painter_.Draw(head, on_gpu, vertices,
                     ViewOfPortrait(figure, scene.camera, width, height, head.view()), scene,
-                    max_error_pixels_, *target_);
+                    max_error_pixels_, *framebuffer_);
       // The figure fades as one picture; blending each of its layers would show what is behind
       // them.
       if (alpha < 1) backdrop_.BlendOver(behind, 1 - alpha);
     }
     if (context_.is_window()) {
       gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-      target_->Show(viewport_.x,
-                    viewport_.width > 0 ? context_.height() - viewport_.y - height : 0);
+      framebuffer_->Show(viewport_.x,
+                         viewport_.width > 0 ? context_.height() - viewport_.y - height : 0);
     }
   }
 
-  /// Panes of several sizes alternate, so the targets of the last few sizes are kept.
-  void UseTarget(int width, int height) {
+  /// Panes of several sizes alternate, so the framebuffers of the last few sizes are kept.
+  void UseFramebuffer(int width, int height) {
     constexpr std::size_t kMax = 4;
-    const auto fits = [&](const auto& target) {
-      return target->width() == width && target->height() == height;
+    const auto fits = [&](const auto& framebuffer) {
+      return framebuffer->width() == width && framebuffer->height() == height;
     };
-    auto found = std::ranges::find_if(targets_, fits);
-    if (found == targets_.end()) {
-      if (targets_.size() >= kMax) targets_.pop_back();
-      targets_.push_back(std::make_unique<GlTarget>(gl_, width, height));
-      found = std::prev(targets_.end());
+    auto found = std::ranges::find_if(framebuffers_, fits);
+    if (found == framebuffers_.end()) {
+      if (framebuffers_.size() >= kMax) framebuffers_.pop_back();
+      framebuffers_.push_back(std::make_unique<GlFramebuffer>(gl_, width, height));
+      found = std::prev(framebuffers_.end());
     }
-    std::rotate(targets_.begin(), found, std::next(found));
-    target_ = targets_.front().get();
+    std::rotate(framebuffers_.begin(), found, std::next(found));
+    framebuffer_ = framebuffers_.front().get();
   }
 
   RenderContext& context_;
@@ -171,12 +171,12 @@ class GlRenderer : public Renderer {
   FigurePainter painter_;
   Backdrop backdrop_;
   GpuHeads heads_;
-  std::vector<std::unique_ptr<GlTarget>> targets_;  // last used first
+  std::vector<std::unique_ptr<GlFramebuffer>> framebuffers_;  // last used first
   FrameReader reader_;
   const bool rig_on_gpu_;
   HeadVertices vertices_;  // result of moving a head on the processor; reused
-  // The target of the last frame.
-  GlTarget* target_ = nullptr;
+  // The framebuffer of the last frame.
+  GlFramebuffer* framebuffer_ = nullptr;
   ReadOptions read_options_;
 };
 

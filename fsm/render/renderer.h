@@ -25,10 +25,10 @@ enum class RigDevice {
 };
 
 /// Draws any number of heads one after the other, each in the current viewport, so that one window
-/// can show several faces. All heads share programs and targets; the constant data of the heads
-/// drawn last is kept. Owns its GL objects; the context must outlive it and be current in every
-/// call. Antialiased with 4 samples. The same head, state, scene and size give the same picture,
-/// whatever was drawn before.
+/// can show several faces. All heads share programs and framebuffers; the constant data of the
+/// heads drawn last is kept. Owns its GL objects; the context must outlive it and be current in
+/// every call. Antialiased with 4 samples. The same head, state, scene and size give the same
+/// picture, whatever was drawn before.
 class Renderer {
  public:
   /// `heads`: number of heads kept, at least 1, each with about 20 MB of textures; the next head

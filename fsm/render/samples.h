@@ -14,7 +14,7 @@ inline constexpr int kSamplesAlong = 2;
 struct SampleRows {
   const std::uint32_t* first;
   std::size_t row;  ///< samples in each row
-  int from, to;     ///< index of first and last row in the target
+  int from, to;     ///< index of first and last row in the framebuffer
 };
 
 enum class Filter {
