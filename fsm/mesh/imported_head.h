@@ -53,7 +53,6 @@ struct ImportedHead {
   bool gaze_by_shape = false;  ///< shapes (vrmlookleft ...) move the eyes, which do not rotate
   std::vector<std::string> notices;      ///< sentences about what was left out
   std::vector<std::string> named_files;  ///< paths of files that it refers to, existing or not
-  bool metres = false;                   ///< the unit is the metre, by the file format
 };
 
 /// Reads .obj, .gltf, .glb or .vrm. Pictures and buffers that the file names are read from its

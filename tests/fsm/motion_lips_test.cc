@@ -132,8 +132,8 @@ TEST(LipStyleTest, LinearModeGoesStraight) {
 
 TEST(PhonemeNamesTest, TheListThatKnowsMostNamesTheLanguage) {
   const auto english = [](const char* text) {
-    return PhonemeReader(List(text), Tables().set(VisemeSetId::k28), Tables().engines,
-                         Language::kAuto, "")
+    return VisemeFinder(List(text), Tables().set(VisemeSetId::k28), Tables().engines,
+                        Language::kAuto, "")
                .language() == Language::kEnglish;
   };
   EXPECT_FALSE(english("pau 10 k 10 o 10 N 10 n 10 i 10 ch 10 i 10 w 10 a 10"));  // open_jtalk
@@ -166,8 +166,8 @@ TEST(PhonemeNamesTest, EndingsAreTakenOffAndUnknownNamesAreListed) {
 
 TEST(PhonemeNamesTest, ALanguageOrAnEngineCanBeInsistedOn) {
   const auto english = [](const char* text, Language language, const char* engine) {
-    return PhonemeReader(List(text), Tables().set(VisemeSetId::k28), Tables().engines, language,
-                         engine)
+    return VisemeFinder(List(text), Tables().set(VisemeSetId::k28), Tables().engines, language,
+                        engine)
                .language() == Language::kEnglish;
   };
   EXPECT_TRUE(english("k 10 t 10", Language::kEnglish, ""));

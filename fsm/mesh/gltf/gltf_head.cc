@@ -35,7 +35,6 @@ class GltfReader {
   }
 
   ImportedHead Read() {
-    head_.metres = true;
     head_.spring_rig.springs = springs_.springs();
     for (const std::int64_t node : nodes_.shown()) ReadMesh(node);
     if (head_.parts.empty()) RefuseFile("no mesh of triangles is in it");

@@ -67,8 +67,8 @@ class OriginalBuilder {
   /// Closes lips at rest: wireframes leave a gap or an overlap of less than a millimetre, through
   /// which teeth would be visible.
   static void ShutAtRest(glm::vec3& upper, glm::vec3& lower) {
-    constexpr float kHairMm = 0.8f;
-    if (std::abs(upper.y - lower.y) > kHairMm) return;
+    constexpr float kMaxGapMm = 0.8f;
+    if (std::abs(upper.y - lower.y) > kMaxGapMm) return;
     const glm::vec2 middle = 0.5f * (glm::vec2(upper) + glm::vec2(lower));
     upper = glm::vec3(middle, upper.z);
     lower = glm::vec3(middle, lower.z);

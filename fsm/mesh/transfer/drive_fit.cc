@@ -38,8 +38,8 @@ void SolvePositive(std::vector<std::vector<double>>& a, std::vector<std::vector<
 
 }  // namespace
 
-void DriveFit::Add(std::size_t target, const Drive& drive, float gain) {
-  drivers_[target].push_back({drive, gain});
+void DriveFit::Add(std::size_t shape, const Drive& drive, float gain) {
+  drivers_[shape].push_back({drive, gain});
 }
 
 void DriveFit::AddSided(const Drive& drive, float full,
@@ -85,7 +85,7 @@ void MouthFit::AddViseme(const std::array<float, kMouthParameters>& mouth, Weigh
   known_.push_back({mouth, std::move(weights)});
 }
 
-/// The normal equations of the change of the gains: square * change = wanted, by half and target.
+/// The normal equations of the change of the gains: square * change = wanted, by half and shape.
 struct MouthFit::Equations {
   std::vector<std::vector<double>> square, wanted;
 };

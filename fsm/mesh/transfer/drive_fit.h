@@ -11,30 +11,30 @@
 
 namespace fsm {
 
-/// Computes the drivers of a head's targets (shapes) when it is baked: given the weights of the
-/// targets in some states, finds gains of numbers of the state that reproduce these weights.
+/// Computes the drivers of a head's shapes when it is baked: given the weights of the
+/// shapes in some states, finds gains of numbers of the state that reproduce these weights.
 class DriveFit {
  public:
-  using Weights = std::vector<float>;  ///< of every target
+  using Weights = std::vector<float>;  ///< of every shape
 
-  explicit DriveFit(std::size_t targets) : drivers_(targets) {}
+  explicit DriveFit(std::size_t shapes) : drivers_(shapes) {}
 
-  /// Adds drivers by a number that both sides have. `weights` returns the weights of the targets
+  /// Adds drivers by a number that both sides have. `weights` returns the weights of the shapes
   /// where that number is `full` on the raised sides (right, left or both), and 0 elsewhere. All
-  /// three are reproduced, whether a target follows one side, the sum of both or the greater of
+  /// three are reproduced, whether a shape follows one side, the sum of both or the greater of
   /// them.
   void AddSided(const Drive& drive, float full,
                 const std::function<Weights(const Sided<bool>& raised)>& weights);
-  void Add(std::size_t target, const Drive& drive, float gain);
+  void Add(std::size_t shape, const Drive& drive, float gain);
 
-  /// Moves out the drivers of every target.
+  /// Moves out the drivers of every shape.
   std::vector<std::vector<Channel::Driver>> ReleaseDrivers() { return std::move(drivers_); }
 
  private:
   std::vector<std::vector<Channel::Driver>> drivers_;
 };
 
-/// Fits gains from the mouth's parameters to targets by least squares; raising and lowering a
+/// Fits gains from the mouth's parameters to shapes by least squares; raising and lowering a
 /// parameter have separate gains. Starts from the gains of AddParameters and changes them as little
 /// as possible so that every viseme is reproduced. The change is slightly damped because visemes
 /// may be nearly equal.
@@ -42,10 +42,10 @@ class MouthFit {
  public:
   using Weights = DriveFit::Weights;
 
-  explicit MouthFit(std::size_t targets) : gain_(targets) {}
+  explicit MouthFit(std::size_t shapes) : gain_(shapes) {}
 
   /// Sets the gains of each parameter acting alone from `weights`, which returns those of the
-  /// targets in a state. Without this call they are 0.
+  /// shapes in a state. Without this call they are 0.
   void AddParameters(const std::function<Weights(const FaceState&)>& weights);
   void AddViseme(const std::array<float, kMouthParameters>& mouth, Weights weights);
   /// Adds the gains to `fit` as drivers of that kind.
@@ -63,7 +63,7 @@ class MouthFit {
   struct Equations;
   void AddEquation(const KnownMouth& viseme, double importance, Equations& equations) const;
 
-  std::vector<Halves> gain_;  // indexed by target; of each parameter acting alone
+  std::vector<Halves> gain_;  // indexed by shape; of each parameter acting alone
   std::vector<KnownMouth> known_;
 };
 

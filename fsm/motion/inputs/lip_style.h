@@ -36,7 +36,7 @@ struct LipStyle {
   LipMode mode = LipMode::kDominance;
   VisemeSetId visemes = VisemeSetId::k28;
   Language language = Language::kAuto;
-  std::string engine = "AUTO";  ///< whose phoneme names are used, see PhonemeReader
+  std::string engine = "AUTO";  ///< whose phoneme names are used, see VisemeFinder
   double jaw = 1;               ///< factor on the jaw's opening, 0 (mumbled) .. 3
   double lips = 1;              ///< factor on the lips' movements, 0..3
 };

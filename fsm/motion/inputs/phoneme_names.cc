@@ -75,9 +75,9 @@ std::string EngineList(const std::vector<EngineNames>& engines) {
   return fmt::format("{}", fmt::join(list, " "));
 }
 
-PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const VisemeSet& set,
-                             const std::vector<EngineNames>& engines, Language language,
-                             std::string_view engine)
+VisemeFinder::VisemeFinder(const vm::PhonemeList& phonemes, const VisemeSet& set,
+                           const std::vector<EngineNames>& engines, Language language,
+                           std::string_view engine)
     : set_(set) {
   if (language != Language::kAuto) language_ = language;
   std::ptrdiff_t most = -1;
@@ -97,15 +97,15 @@ PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const VisemeSet& s
   for (const EngineNames& names : engines) consider(&names, names.language, names.engine);
 }
 
-const PhonemeVisemes* PhonemeReader::VisemesIn(const EngineNames* names, Language language,
-                                               std::string_view name) const {
+const PhonemeVisemes* VisemeFinder::VisemesIn(const EngineNames* names, Language language,
+                                              std::string_view name) const {
   const std::string_view ours = names == nullptr ? name : names->Ours(name);
   const PhonemeTable& table = set_.PhonemesOf(language);
   const auto found = table.find(ours);
   return found == table.end() ? nullptr : &found->second;
 }
 
-const PhonemeVisemes* PhonemeReader::VisemesOf(std::string_view name) const {
+const PhonemeVisemes* VisemeFinder::VisemesOf(std::string_view name) const {
   if (const PhonemeVisemes* visemes = VisemesIn(names_, language_, name)) return visemes;
   if (const PhonemeVisemes* visemes = VisemesIn(nullptr, language_, name)) return visemes;
   const bool english = language_ == Language::kEnglish;

@@ -25,18 +25,17 @@ struct EngineNames {
 vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
                                                       std::string_view text, const VisemeSet& set);
 
-/// Returns the engine names that PhonemeReader accepts: FLITE and OPEN_JTALK, whose phoneme names
+/// Returns the engine names that VisemeFinder accepts: FLITE and OPEN_JTALK, whose phoneme names
 /// are ours, and those of the table.
 std::string EngineList(const std::vector<EngineNames>& engines);
 
 /// Finds the visemes of phonemes. Uses the list of names that knows most phonemes of an utterance
 /// (the Japanese one if several know equally many), and the others for names it lacks.
-class PhonemeReader {
+class VisemeFinder {
  public:
-  /// `engine`: "" or AUTO = any. Lifetime: `set` and `engines` outlive the reader.
-  PhonemeReader(const vm::PhonemeList& phonemes, const VisemeSet& set,
-                const std::vector<EngineNames>& engines, Language language,
-                std::string_view engine);
+  /// `engine`: "" or AUTO = any. Lifetime: `set` and `engines` outlive the finder.
+  VisemeFinder(const vm::PhonemeList& phonemes, const VisemeSet& set,
+               const std::vector<EngineNames>& engines, Language language, std::string_view engine);
 
   /// Returns nullptr if no list has the name.
   const PhonemeVisemes* VisemesOf(std::string_view name) const;

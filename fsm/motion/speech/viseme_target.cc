@@ -46,13 +46,13 @@ void ResolveNext(std::vector<TimedPhase>& phases, const VisemeSet& set) {
 
 /// Returns the phases of all phonemes, two for a diphthong, with their total length and the unknown
 /// phonemes.
-std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const PhonemeReader& reader,
+std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const VisemeFinder& finder,
                                  const VisemeSet& set, VisemeTargets& out) {
   const PhonemeVisemes closed{{{static_cast<int>(set.rest), 1}}};
   std::vector<TimedPhase> phases;
   for (const vm::Phoneme& phoneme : phonemes) {
     const double length = InMs(phoneme.duration);
-    const PhonemeVisemes* visemes = reader.VisemesOf(phoneme.name);
+    const PhonemeVisemes* visemes = finder.VisemesOf(phoneme.name);
     if (visemes == nullptr) {
       visemes = &closed;
       if (std::ranges::find(out.unknown, phoneme.name) == out.unknown.end()) {
@@ -86,11 +86,11 @@ double HoldOf(const TimedPhase& phase, double share, bool pause) {
 VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
                                 const LipStyle& style) {
   const VisemeSet& set = tables.set(style.visemes);
-  const PhonemeReader reader(phonemes, set, tables.engines, style.language, style.engine);
+  const VisemeFinder finder(phonemes, set, tables.engines, style.language, style.engine);
   VisemeTargets out;
   out.rest = set.visemes[set.rest].pose;
   out.rest_dominance = set.visemes[set.rest].dominance;
-  for (const TimedPhase& timed : PhasesOf(phonemes, reader, set, out)) {
+  for (const TimedPhase& timed : PhasesOf(phonemes, finder, set, out)) {
     if (timed.length_ms <= 0) continue;
     const auto index = static_cast<std::size_t>(timed.phase.viseme);
     const Viseme& viseme = set.visemes[index];
