@@ -15,7 +15,7 @@ inline constexpr int kAssetVersion = 4;
 /// These lists name every member of a head's description once; the writer, the reader and the check
 /// of asset files all walk them, so that a new member is one line here. `v` is called as
 /// `v("name", object.member)` in the order of the lists, for a const object or one to be filled.
-/// Names are those of the members. Small structs within HeadSurface and RigData are flattened;
+/// Most names are those of the members. Small structs within HeadSurface and RigData are flattened;
 /// their members get the struct's name where their own would be ambiguous.
 
 template <typename T, typename U>

@@ -6,7 +6,6 @@
 
 #include "fsm/rig/rig_steps.h"
 #include "fsm/rig/vertex_checker.h"
-#include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
@@ -40,17 +39,12 @@ void CheckSurface(const HeadSurface& surface, const VertexChecker& checker) {
 
 }  // namespace
 
-vm::Result<void> CheckAsset(const HeadAsset& asset) {
-  try {
-    const VertexChecker checker(asset.rig.rest.size());
-    if (checker.vertices() == 0) checker.Refuse("rig.rest: no vertices");
-    CheckSurface(asset.surface, checker);
-    CheckRig(asset.rig);
-    if (asset.view) checker.Positive(asset.view->half_mm, "view.half_mm");
-  } catch (const vm::Failure& failure) {
-    return std::unexpected(failure.error);
-  }
-  return {};
+void CheckAsset(const HeadAsset& asset) {
+  const VertexChecker checker(asset.rig.rest.size());
+  if (checker.vertices() == 0) checker.Refuse("rig.rest: no vertices");
+  CheckSurface(asset.surface, checker);
+  CheckRig(asset.rig);
+  if (asset.view) checker.Positive(asset.view->half_mm, "view.half_mm");
 }
 
 }  // namespace fsm

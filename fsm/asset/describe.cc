@@ -6,40 +6,11 @@
 #include <map>
 #include <set>
 
-#include "fsm/asset/asset_members.h"
 #include "fsm/asset/material_name.h"
+#include "fsm/rig/rig_steps.h"
 
 namespace fsm {
 namespace {
-
-/// Sums up the bytes of a head's arrays.
-class MemorySum {
- public:
-  template <typename T>
-  void operator()(const char*, const T& value) {
-    Add(value);
-  }
-  std::size_t bytes = 0;
-
- private:
-  template <typename T>
-  void Add(const std::vector<T>& items) {
-    bytes += items.size() * sizeof(T);
-    if constexpr (std::is_same_v<T, Channel>) {
-      for (const Channel& channel : items) {
-        Add(channel.drivers);
-        Add(channel.moves);
-      }
-    }
-  }
-  void Add(const std::shared_ptr<const Image>& image) {
-    if (image) bytes += image->rgba.size();
-  }
-  template <typename T>
-  void Add(const T& value) {
-    if constexpr (requires { Members(*this, value); }) Members(*this, value);
-  }
-};
 
 class Description {
  public:
@@ -55,10 +26,6 @@ class Description {
     Springs();
     Steps();
     DescribeLandmarks();
-    MemorySum sum;
-    Members(sum, surface_);
-    Members(sum, rig_);
-    Line("memory", "{} KiB", sum.bytes / 1024);
     return std::move(text_);
   }
 

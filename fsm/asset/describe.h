@@ -6,8 +6,8 @@
 
 namespace fsm {
 
-/// Describes a head for people: its parts and materials, pictures, bones, channels, steps,
-/// landmarks and memory. Ends with a line break.
+/// Describes a head for people: its parts and materials, pictures, bones, channels, steps and
+/// landmarks. Ends with a line break.
 std::string Describe(const Head& head);
 
 }  // namespace fsm
