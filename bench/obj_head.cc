@@ -16,6 +16,7 @@
 #include "fsm/base/box.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/landmarks.h"
+#include "tests/support/still_rig.h"
 
 namespace fsm::bench {
 namespace {
@@ -67,10 +68,11 @@ class ObjHeadMaker {
   }
 
   HeadAsset Asset() {
-    HeadAsset asset{.surface = std::move(topology_),
-                    .rig = MakeStillRig(std::move(rest_.position), std::move(rest_.normal)),
-                    .landmarks = std::move(landmarks_),
-                    .view = {}};
+    HeadAsset asset{
+        .surface = std::move(topology_),
+        .rig = support::MakeStillRig(std::move(rest_.position), std::move(rest_.normal)),
+        .landmarks = std::move(landmarks_),
+        .view = {}};
     for (const Side side : kSides) asset.rig.eyes.centre[side] = balls_[side].centre();
     return asset;
   }

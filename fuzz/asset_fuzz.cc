@@ -10,6 +10,7 @@
 #include "fsm/asset/asset_writer.h"
 #include "fsm/asset/describe.h"
 #include "fsm/rig/simulation.h"
+#include "tests/support/still_rig.h"
 
 namespace {
 
@@ -23,7 +24,7 @@ fsm::Head SmallHead() {
     rest.emplace_back(10 * t - 50, t * t - 60, 80 - t);
     normal.emplace_back(0, 0, 1);
   }
-  fsm::RigData& rig = asset.rig = fsm::MakeStillRig(std::move(rest), std::move(normal));
+  fsm::RigData& rig = asset.rig = support::MakeStillRig(std::move(rest), std::move(normal));
   rig.steps.clear();
   for (int step = 0; step <= static_cast<int>(fsm::RigStep::kNormals); ++step)
     rig.steps.push_back(static_cast<fsm::RigStep>(step));

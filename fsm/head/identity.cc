@@ -126,6 +126,12 @@ const std::map<std::string_view, void (*)(const TableRow&, Identity&)> kIdentity
     {"field", [](auto& row, auto& identity) { identity.units.Add(row); }},
     {"lid", [](auto& row, auto& identity) { identity.units.Add(row); }}};
 
+void ReadIdentityRow(const TableRow& row, Identity& identity) {
+  const auto found = kIdentityRows.find(row.key());
+  if (found == kIdentityRows.end()) row.Refuse("unknown word '" + row.key() + "'");
+  found->second(row, identity);
+}
+
 const Table& BuiltInTable() {
   static const Table table("tables/identities.txt", embedded::identities());
   return table;
@@ -147,12 +153,6 @@ const Palette& BasePalette() {
   return palette;
 }
 
-void ReadIdentityRow(const TableRow& row, Identity& identity) {
-  const auto found = kIdentityRows.find(row.key());
-  if (found == kIdentityRows.end()) row.Refuse("unknown word '" + row.key() + "'");
-  found->second(row, identity);
-}
-
 const std::vector<std::string>& Identities() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> found;
@@ -168,26 +168,17 @@ bool IsBuiltIn(std::string_view name) {
   return std::ranges::find(Identities(), name) != Identities().end();
 }
 
-Identity ReadIdentity(const Table& table, std::string_view name) {
+Identity BuiltInIdentity(std::string_view name) {
   Identity identity;
+  identity.index = IdentityIndex(name);  // its error lists the names
   bool mine = false;
-  bool found = false;
-  for (const TableRow& row : table.rows()) {
+  for (const TableRow& row : BuiltInTable().rows()) {
     if (row.key() == "face") {
       mine = row.Word(1) == name;
-      found |= mine;
     } else if (mine) {
       ReadIdentityRow(row, identity);
     }
   }
-  if (!found) table.Refuse("no face '" + std::string(name) + "'");
-  return identity;
-}
-
-Identity BuiltInIdentity(std::string_view name) {
-  const std::size_t index = IdentityIndex(name);  // its error lists the names
-  Identity identity = ReadIdentity(BuiltInTable(), name);
-  identity.index = index;
   return identity;
 }
 

@@ -80,12 +80,6 @@ struct Identity {
   std::shared_ptr<const Features> features = Features::BuiltIn();  ///< never null
 };
 
-/// Reads a face's block of a table; Identity::index stays 0. Throws std::runtime_error naming file
-/// and line if the table is damaged, or has no such face.
-Identity ReadIdentity(const Table& table, std::string_view name);
-/// Reads one line of a face's block; a slider replaces an earlier one of the same name.
-void ReadIdentityRow(const TableRow& row, Identity& identity);
-
 /// Returns a built-in face as its table describes it. Throws std::runtime_error listing the names
 /// if `name` is unknown.
 Identity BuiltInIdentity(std::string_view name);
@@ -93,8 +87,9 @@ Identity BuiltInIdentity(std::string_view name);
 std::vector<std::string> SliderNames();
 
 /// Reads a user's own face, the file identity.txt in its folder: `base FACE`, then lines as in
-/// tables/identities.txt that modify it. `name` appears in error messages. Throws
-/// std::runtime_error naming file and line. Limit: kMaxSlider in absolute value.
+/// tables/identities.txt that modify it; a slider replaces an earlier one of the same name. `name`
+/// appears in error messages. Throws std::runtime_error naming file and line. Limit: kMaxSlider in
+/// absolute value.
 Identity ReadOwnIdentity(const std::string& name, std::string_view text);
 /// Returns the text of such a file with sliders only.
 std::string WriteOwnIdentity(std::string_view base,

@@ -77,10 +77,9 @@ class RenderContext;
   X(PFNGLVIEWPORTPROC, Viewport)
 
 /// Functions of OpenGL 4.3; not every driver has them.
-#define FSM_GL_COMPUTE_FUNCTIONS(X)              \
-  X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)     \
-  X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)   \
-  X(PFNGLGETBUFFERSUBDATAPROC, GetBufferSubData) \
+#define FSM_GL_COMPUTE_FUNCTIONS(X)            \
+  X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)   \
+  X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute) \
   X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)
 
 struct GlFunctions {

@@ -103,15 +103,4 @@ void GpuRig::Evaluate(const Rig& rig, std::span<const Input> faces) {
   gl_.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void GpuRig::Read(std::size_t face, HeadVertices& out) const {
-  const auto read = [&](RigPrograms::Binding which, std::vector<glm::vec3>& into) {
-    into.resize(vertex_count_);
-    gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, buffers_[which]);
-    gl_.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(OffsetBytes(face)),
-                         static_cast<GLsizeiptr>(OffsetBytes(1)), into.data());
-  };
-  read(kPositions, out.position);
-  read(kNormals, out.normal);
-}
-
 }  // namespace fsm

@@ -65,8 +65,6 @@ class GpuRig {
   std::size_t OffsetBytes(std::size_t face) const {
     return face * vertex_count_ * sizeof(glm::vec3);
   }
-  /// Waits for the GPU and reads positions and normals back.
-  void Read(std::size_t face, HeadVertices& out) const;
 
  private:
   using enum RigPrograms::Binding;

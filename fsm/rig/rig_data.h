@@ -144,7 +144,4 @@ RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertice
 /// the mouth is measured: the lip seam, its corners and the chin.
 std::vector<std::uint32_t> StepVertices(const RigData& data);
 
-/// Returns a rig whose vertices never move.
-RigData MakeStillRig(std::vector<glm::vec3> position, std::vector<glm::vec3> normal);
-
 }  // namespace fsm

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fsm/rig/head.h"
+#include "tests/support/still_rig.h"
 
 /// A head for tests of drawing alone: an ellipsoid of skin with two eyeballs, a patch of hair and
 /// shoulders, of roughly human size. Nothing in it moves.
@@ -28,7 +29,7 @@ class BallHead : public fsm::Head {
         Ellipsoid(fsm::Material::kSclera, {x, 20, 92}, {12, 12, 12}, {0.75F, 0.72F, 0.70F});
         Ellipsoid(fsm::Material::kIris, {x, 20, 103}, {5.8F, 5.8F, 2}, {0.10F, 0.16F, 0.20F});
       }
-      asset.rig = fsm::MakeStillRig(std::move(position), std::move(normal));
+      asset.rig = support::MakeStillRig(std::move(position), std::move(normal));
       if (change) change(asset);
     }
 

@@ -19,6 +19,7 @@
 #include "fsm/head/make_head.h"
 #include "fsm/rig/head.h"
 #include "fsm/rig/simulation.h"
+#include "tests/support/still_rig.h"
 
 namespace fsm {
 namespace {
@@ -162,7 +163,7 @@ TEST(SimulationTest, WhatHangsGoesStraightDownAsTheHeadLeans) {
   Simulation simulation({spring});
   const auto leaning = [](Time) { return Turned(0, 40, 20); };
   simulation.RunTo(5s, leaning);
-  RigData still = MakeStillRig({spring.rest, spring.root}, {{0, 0, 1}, {0, 0, 1}});
+  RigData still = support::MakeStillRig({spring.rest, spring.root}, {{0, 0, 1}, {0, 0, 1}});
   still.steps = {RigStep::kNeck};
   HeadVertices carried;
   Rig(still).Evaluate(leaning(5s), carried);
@@ -224,7 +225,7 @@ TEST(HairSpringsTest, NeighboursGoAlong) {
 
 TEST(HairSpringsTest, TheTableRefusesNonsenseByFileAndLine) {
   const auto complaint = [](const std::string& rows) -> std::string {
-    RigData rig = MakeStillRig({{0, -50, 80}}, {{0, 0, 1}});
+    RigData rig = support::MakeStillRig({{0, -50, 80}}, {{0, 0, 1}});
     try {
       AddHairSprings(Table("hair.txt", "axis 0 0\naround 8\nstill 0\n" + rows), 0, rig);
     } catch (const std::runtime_error& error) {

@@ -35,7 +35,7 @@ MotionTables With(const std::string& file, const std::string& rows) {
   char name[] = "/tmp/galatea_mixing_XXXXXX";
   EXPECT_NE(mkdtemp(name), nullptr);
   std::ofstream(std::filesystem::path(name) / file) << TableText(file) << rows;
-  auto tables = MotionTables::Load(name);
+  auto tables = MotionTables::Load(std::string(name));
   std::filesystem::remove_all(name);
   EXPECT_TRUE(tables) << (tables ? "" : tables.error().text);
   return tables ? *tables : MotionTables::Load().value();
@@ -61,10 +61,14 @@ std::set<std::string_view> Declared(std::string_view kind) {
 }
 
 TEST(LayerNameTest, TheTableOfTheMixerDeclaresTheLayersAndSignalsThatTheSourcesHave) {
-  const auto& layers = LayerName::kAll;
-  const auto& signals = SignalName::kAll;
-  EXPECT_EQ(Declared("layer"), (std::set<std::string_view>(layers.begin(), layers.end())));
-  EXPECT_EQ(Declared("signal"), (std::set<std::string_view>(signals.begin(), signals.end())));
+  using L = LayerName;
+  EXPECT_EQ(Declared("layer"),
+            (std::set{L::kBlendShapes, L::kEmotions, L::kExpression, L::kEyes, L::kGestures,
+                      L::kHead, L::kIdle, L::kIdleFace, L::kMood, L::kMouth, L::kMouthStream,
+                      L::kNods, L::kStreamGestures, L::kSpeech, L::kText, L::kUnits}));
+  using S = SignalName;
+  EXPECT_EQ(Declared("signal"), (std::set{S::kSpeaking, S::kLipsTaken, S::kStreamTaken,
+                                          S::kHeadTaken, S::kContact, S::kExpression, S::kAtUser}));
 }
 
 TEST(MotionSourceTest, ASourceFromOutsideIsMixedWithTheOthersWithoutARowOfItsOwn) {

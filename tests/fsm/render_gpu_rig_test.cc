@@ -57,6 +57,21 @@ class GpuRigTest : public testing::Test {
                    << gl_.GetString(GL_VERSION);
   }
 
+  /// Waits for the GPU and reads positions and normals of a face back.
+  void Read(const GpuRig& on_gpu, std::size_t face, std::size_t vertices, HeadVertices& out) {
+    const auto bytes = static_cast<GLsizeiptr>(vertices * sizeof(glm::vec3));
+    for (const auto& [buffer, into] :
+         {std::pair(on_gpu.positions(), &out.position), {on_gpu.normals(), &out.normal}}) {
+      gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer);
+      const auto* const first = static_cast<const glm::vec3*>(gl_.MapBufferRange(
+          GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(on_gpu.OffsetBytes(face)), bytes,
+          GL_MAP_READ_BIT));
+      ASSERT_NE(first, nullptr);
+      into->assign(first, first + vertices);
+      gl_.UnmapBuffer(GL_SHADER_STORAGE_BUFFER);
+    }
+  }
+
   /// How far faces of these states, moved in one call, lie from those of the processor.
   void ExpectEqual(const Rig& rig, const std::vector<FaceState>& states) {
     GpuRig on_gpu(gl_, programs_, rig);
@@ -68,8 +83,7 @@ class GpuRigTest : public testing::Test {
     for (std::size_t face = 0; face < states.size(); ++face) {
       HeadVertices here, there;
       rig.Evaluate(states[face], here, spring_offsets);
-      on_gpu.Read(face, there);
-      ASSERT_EQ(here.position.size(), there.position.size());
+      Read(on_gpu, face, here.position.size(), there);
       float farthest = 0, steepest = 1;
       std::size_t at = 0;
       for (std::size_t i = 0; i < here.position.size(); ++i) {
@@ -193,11 +207,12 @@ TEST_F(GpuRigTest, AFaceThatIsAskedForAgainIsTheSame) {
   const auto head = MakeHead("galatea");
   GpuRig on_gpu(gl_, programs_, head->rig());
   const FaceState wild = Wild(3), rest;
+  const std::size_t vertices = head->rig().data().rest.size();
   HeadVertices first, again;
   on_gpu.Evaluate(head->rig(), std::vector<GpuRig::Input>{{&wild}});
-  on_gpu.Read(0, first);
+  Read(on_gpu, 0, vertices, first);
   on_gpu.Evaluate(head->rig(), std::vector<GpuRig::Input>{{&rest}, {&rest}, {&wild}});
-  on_gpu.Read(2, again);
+  Read(on_gpu, 2, vertices, again);
   EXPECT_EQ(first.position, again.position);
   EXPECT_EQ(first.normal, again.normal);
 }

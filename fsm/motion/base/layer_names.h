@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 namespace fsm {
@@ -15,9 +14,6 @@ struct LayerName {
                                     kMouthStream = "mouth_stream", kNods = "nods",
                                     kStreamGestures = "stream_gestures", kSpeech = "speech",
                                     kText = "text", kUnits = "units";
-  static constexpr std::array kAll{
-      kBlendShapes, kEmotions, kExpression,  kEyes, kGestures,       kHead,   kIdle, kIdleFace,
-      kMood,        kMouth,    kMouthStream, kNods, kStreamGestures, kSpeech, kText, kUnits};
 };
 
 /// The signals of the built-in sources, as above.
@@ -26,8 +22,6 @@ struct SignalName {
                                     kStreamTaken = "stream_taken", kHeadTaken = "head_taken",
                                     kContact = "contact", kExpression = "expression",
                                     kAtUser = "at_user";
-  static constexpr std::array kAll{kSpeaking, kLipsTaken,  kStreamTaken, kHeadTaken,
-                                   kContact,  kExpression, kAtUser};
 };
 
 }  // namespace fsm
