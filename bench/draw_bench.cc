@@ -247,7 +247,7 @@ void PrintOthers(const Options& options, fsm::Renderer& renderer) {
   }
   if (options.config.empty()) return;
   const auto config = vm::OrThrow(fsm::OriginalConfig::Read(options.config));
-  const auto faces = fsm::OriginalFaces(config.faces, config.shared, "").faces;
+  const auto faces = fsm::OriginalFaces(config.faces, config.shared, {}).faces;
   if (faces.empty()) throw std::runtime_error(options.config + " has no face");
   PrintFilm("portrait at 512 x 512 in a film", options, 512, 512, renderer, *faces.front().make());
 }

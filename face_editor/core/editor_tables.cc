@@ -51,7 +51,7 @@ State First() {
 Editor::Editor(fsm::MotionTables tables) : tables_(std::move(tables)), history_(First()) {}
 
 vm::Result<std::unique_ptr<Editor>> Editor::Make(const std::string& tables) {
-  auto loaded = fsm::MotionTables::Load("");
+  auto loaded = fsm::MotionTables::Load();
   if (!loaded) return std::unexpected(loaded.error());
   std::unique_ptr<Editor> editor(new Editor(std::move(*loaded)));
   auto units = ReadUnits(kUnitsFile, embedded::editor_action_units());

@@ -12,17 +12,19 @@
 
 namespace fsm {
 
+struct CaptureLimits {
+  long pictures = 36'000;             ///< 20 minutes at 30 per second
+  std::uintmax_t bytes = 8ULL << 30;  ///< on the disk: 10,000 pictures of 512 x 512
+};
+
 /// Writes numbered pictures of one utterance, DIR/PREFIX00001.bmp and on, from its begin to its
 /// end, at a given rate. Picture k shows the face at begin + k / rate exactly; none is skipped, and
 /// none is later than the end, however slow the machine is. Each is drawn in a separate task of the
 /// scheduler, so that commands and signals are handled between pictures.
-/// Limits: those of Limits; exceeding one ends the capture with an error. Thread: the scheduler's.
+/// Limits: those of CaptureLimits; exceeding one ends the capture with an error. Thread: the
+/// scheduler's.
 class Capture {
  public:
-  struct Limits {
-    long pictures = 36'000;             ///< 20 minutes at 30 per second
-    std::uintmax_t bytes = 8ULL << 30;  ///< on the disk: 10,000 pictures of 512 x 512
-  };
   struct Request {
     std::string folder;
     std::string prefix;
@@ -33,10 +35,8 @@ class Capture {
   /// Called once all pictures of an utterance are written, or with an error if they cannot be.
   using OnEnd = std::function<void(const vm::Result<void>&)>;
   /// Lifetime: clock, view and files outlive this.
-  Capture(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw, OnEnd on_end)
-      : Capture(clock, view, files, std::move(draw), std::move(on_end), Limits{}) {}
   Capture(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw, OnEnd on_end,
-          Limits limits)
+          CaptureLimits limits = {})
       : files_(files),
         draw_(std::move(draw)),
         on_end_(std::move(on_end)),
@@ -65,7 +65,7 @@ class Capture {
   Draw draw_;
   OnEnd on_end_;
   FrameQueue queue_;
-  const Limits limits_;
+  const CaptureLimits limits_;
   Request request_;
   FrameSeries series_;
   bool armed_ = false;

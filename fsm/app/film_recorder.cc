@@ -24,7 +24,7 @@ vm::Result<void> FilmRecorder::Start(const std::string& path, int frames_per_sec
   }
   width_ = view_.width();
   height_ = view_.height();
-  auto writer = files_.open_film(path, width_, height_, frames_per_second);
+  auto writer = files_.open_film(path, width_, height_, frames_per_second, "");
   if (!writer) return std::unexpected(writer.error());
   writer_ = std::move(*writer);
   path_ = path;

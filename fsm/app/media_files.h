@@ -14,12 +14,10 @@ namespace fsm {
 struct MediaFiles {
   std::function<vm::Result<void>(const Image&, const std::string& path)> write_image = WriteImage;
   std::function<vm::Result<Image>(const std::string& path)> read_image = ReadImage;
-  /// As FilmWriter::Open.
   std::function<vm::Result<std::unique_ptr<FilmWriter>>(const std::string& path, int width,
-                                                        int height, double per_second)>
-      open_film = [](const std::string& path, int width, int height, double per_second) {
-        return FilmWriter::Open(path, width, height, per_second);
-      };
+                                                        int height, double per_second,
+                                                        const std::string& comment)>
+      open_film = FilmWriter::Open;
 };
 
 }  // namespace fsm

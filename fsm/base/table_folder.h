@@ -17,7 +17,6 @@ class TableFolder {
  public:
   /// With an empty `path` no table is replaced. Implicit: a path is a folder.
   TableFolder(std::string path = {}) : path_(std::move(path)) {}
-  TableFolder(const char* path) : path_(path) {}
 
   struct File {
     std::string path, text;

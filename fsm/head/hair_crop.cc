@@ -1,5 +1,3 @@
-#include "fsm/head/hair_crop.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "fsm/base/pi.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/hair_parts.h"
+#include "fsm/head/hair_styles.h"
 #include "fsm/head/paint_stream.h"
 
 namespace fsm {

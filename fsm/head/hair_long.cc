@@ -1,5 +1,3 @@
-#include "fsm/head/hair_long.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -9,6 +7,7 @@
 #include "fsm/base/pi.h"
 #include "fsm/base/smooth_step.h"
 #include "fsm/head/hair_parts.h"
+#include "fsm/head/hair_styles.h"
 #include "fsm/head/paint_stream.h"
 
 namespace fsm {

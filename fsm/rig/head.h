@@ -15,8 +15,8 @@
 namespace fsm {
 
 /// A head: how it looks and how it moves. It is a pure function from FaceState to vertices, which
-/// applies the rotation of the head but not Figure and camera. Immutable after construction; safe
-/// to share.
+/// applies the rotation of the head but not Figure and camera. Evaluate and MeasureMouth are those
+/// of Rig. Immutable after construction; safe to share.
 class Head {
  public:
   /// REQUIRES: the arrays of `asset` have matching sizes and indices, as the bakers make them.
@@ -29,10 +29,7 @@ class Head {
   const std::shared_ptr<const HeadSurface>& shared_surface() const { return surface_; }
   const Rig& rig() const { return rig_; }
   const MouthVertices& mouth() const { return rig_.data().mouth; }
-  /// Returns the centre of an eyeball at rest.
   glm::vec3 EyeCentre(Side side) const { return rig_.data().eyes.centre[side]; }
-  /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
-  /// `spring_offsets` is that of Rig::Evaluate.
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> spring_offsets = {}) const {
     rig_.Evaluate(state, out, spring_offsets);
@@ -40,7 +37,6 @@ class Head {
   /// Returns the same head with the same surface whose action units move as another table says;
   /// displacements that are the head's own (RigData::units_by_place) stay.
   std::unique_ptr<Head> WithUnits(const UnitTable& units) const;
-  /// Measures the mouth on the vertices that Evaluate would give for `state`.
   MouthMeasure MeasureMouth(const FaceState& state) const { return rig_.MeasureMouth(state); }
   /// Returns the rest position of a landmark named after Farkas: "nasion", "pronasale",
   /// "subnasale", "stomion", "gnathion", "trichion"; with _left or _right: "cheilion",

@@ -11,7 +11,7 @@ namespace facespace {
 namespace {
 
 const fsm::MotionTables& ShippedTables() {
-  static const fsm::MotionTables tables = *fsm::MotionTables::Load("");
+  static const fsm::MotionTables tables = *fsm::MotionTables::Load();
   return tables;
 }
 

@@ -149,7 +149,7 @@ struct CaptureTest : testing::Test {
   }
   ~CaptureTest() override { std::filesystem::remove_all(folder); }
 
-  Capture Make(Capture::Limits limits = {}) {
+  Capture Make(CaptureLimits limits = {}) {
     return Capture(
         clock, world, kPictureFiles,
         [this](long, vm::Time at) {

@@ -37,7 +37,7 @@ class HeadCacheTest : public testing::Test {
   Made Make(const std::string& name = "a.obj") {
     std::string said;
     const HeadCache cache(cache_, [&said](const std::string& line) { said += line; });
-    const auto head = cache.HeadOfFile(folder_ / ("heads/" + name), "");
+    const auto head = cache.HeadOfFile(folder_ / ("heads/" + name), {});
     return {head->rig().data().rest.size(), said};
   }
 
@@ -71,9 +71,9 @@ TEST_F(HeadCacheTest, AHeadIsBakedOnceAndItsNoticeToldEachTime) {
 
 TEST_F(HeadCacheTest, AKeptHeadIsTheBakedOne) {
   Make();
-  const auto baked = MakeHeadOfFile(folder_ / "heads/a.obj", "").head;
+  const auto baked = MakeHeadOfFile(folder_ / "heads/a.obj", {}).head;
   const auto kept =
-      HeadCache(cache_, [](const std::string&) {}).HeadOfFile(folder_ / "heads/a.obj", "");
+      HeadCache(cache_, [](const std::string&) {}).HeadOfFile(folder_ / "heads/a.obj", {});
   FaceState state;
   state.au.left[26] = state.au.right[26] = 1;
   state.head_rotation = {5, 10, 0};

@@ -79,8 +79,8 @@ class FakeWorld final : public FaceView, public FaceLibrary, private ViewWindow 
         if (path == "missing.png") return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
         return Image{1, 1, {1, 2, 3, 255}};
       },
-      .open_film = [this](const std::string& path, int, int,
-                          double) -> vm::Result<std::unique_ptr<FilmWriter>> {
+      .open_film = [this](const std::string& path, int, int, double,
+                          const std::string&) -> vm::Result<std::unique_ptr<FilmWriter>> {
         if (!path.ends_with(".mp4")) return vm::Fail(vm::Errc::kBadValue, path + " is not .mp4");
         return std::make_unique<FakeFilmWriter>(films[path]);
       }};

@@ -43,7 +43,7 @@ std::unique_ptr<Head> OfGltf() {
   }
   const TemporaryFolder folder;
   WriteBytes(folder / "head.glb", {file.begin(), file.end()});
-  return MakeHeadOfFile(folder / "head.glb", "").head;
+  return MakeHeadOfFile(folder / "head.glb", {}).head;
 }
 
 /// One kept picture: a face, how it moves and how it is seen.

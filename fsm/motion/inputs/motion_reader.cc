@@ -37,13 +37,6 @@ bool StartsWithNumber(const TableRow& row) { return ParseNumber(row.key()).has_v
 
 }  // namespace
 
-void CheckNextPattern(const TableRow& row, std::size_t have) {
-  const double pattern = row.Within<double>(1, 1, 10000, "a pattern number");
-  if (pattern != static_cast<double>(have + 1)) {
-    row.Refuse(fmt::format("pattern {:g} found, {} expected next", pattern, have + 1));
-  }
-}
-
 vm::Result<HeadCurve> ReadMotionFile(const std::string& name, std::string_view text) {
   return ReadTable(name, text, [](const Table& table) {
     std::vector<HeadCurve::Key> keys;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstddef>
 #include <string>
@@ -19,7 +21,12 @@ struct PatternField {
 };
 
 /// Checks that the pattern number of a line KIND PATTERN ... is `have` + 1. Throws TableError.
-void CheckNextPattern(const TableRow& row, std::size_t have);
+inline void CheckNextPattern(const TableRow& row, std::size_t have) {
+  const double pattern = row.Within<double>(1, 1, 10000, "a pattern number");
+  if (pattern != static_cast<double>(have + 1)) {
+    row.Refuse(fmt::format("pattern {:g} found, {} expected next", pattern, have + 1));
+  }
+}
 
 /// Reads a line KIND PATTERN NUMBER ..., with one number for each field. Throws TableError.
 template <typename Pattern, std::size_t kCount>
