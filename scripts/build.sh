@@ -2,6 +2,7 @@
 # Builds everything into build/ (or the folder given), with --programs all but the tests, with --only what is named.
 # Programs end up in build/bin/.
 #   scripts/build.sh [--programs | --only "TARGET..."] [FOLDER] [cmake options...]
+# A new folder is for the compiler that CXX and CC name, else for clang 19 where it is installed.
 set -euo pipefail
 targets=(all)
 case ${1:-} in
@@ -11,6 +12,10 @@ esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=${1:-$root/build}
 [ $# -gt 0 ] && shift
+# clang takes half the time of g++.
+if [ -z "${CXX:-}" ] && [ ! -e "$folder/CMakeCache.txt" ] && command -v clang++-19 >/dev/null; then
+  export CC=clang-19 CXX=clang++-19
+fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 # All parts, unless the options say otherwise: the first start of an agent configures this folder for the hub alone.

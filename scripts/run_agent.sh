@@ -226,7 +226,7 @@ if [ -z "$installed" ]; then
   first=""
   if [ ! -x "$bin/agent_manager" ]; then
     first=1
-    echo "run_agent: the first start installs what is missing and compiles what it needs: 5 to 10 minutes on two cores, once" >&2
+    echo "run_agent: the first start installs what is missing and compiles what it needs: 3 to 6 minutes on two cores, once" >&2
     "$root/scripts/setup.sh" --hub </dev/null
     # The rest is installed while the compiler works on the hub and the conversation.
     setup_log=$(mktemp)

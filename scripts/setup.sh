@@ -5,11 +5,12 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build pkg-config ccache
+  clang-19 cmake ninja-build pkg-config ccache
   libboost1.81-dev libcli11-dev nlohmann-json3-dev
   libssl-dev zlib1g-dev libmosquitto-dev libexpat1-dev libcurl4-openssl-dev
 )
 [ "${1:-}" = --hub ] || packages+=(
+  g++
   libfmt-dev libglm-dev libmozjs-102-dev libutf8proc-dev
   libeigen3-dev libopencv-imgproc-dev
   libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev libgl-dev libpng-dev libjpeg-dev

@@ -3,7 +3,8 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/scripts/setup.sh" --tests
-"$root/scripts/build.sh" "$root/build" -DGALATEA_WERROR="${GALATEA_WERROR:-OFF}"
+# In a new folder by g++; an agent's first start is by clang.
+CC=${CC:-gcc} CXX=${CXX:-g++} "$root/scripts/build.sh" "$root/build" -DGALATEA_WERROR="${GALATEA_WERROR:-OFF}"
 # What tests look at and is not in the repository; those that lack it are skipped, and say so.
 ! command -v npm >/dev/null || "$root/scripts/face_networks.sh" || true
 if [ -z "${GALATEA_PHOTOS:-}" ] && [ ! -d "$root/../shared/data/photos" ]; then
