@@ -19,6 +19,7 @@ constexpr float kPrior = 60, kMemory = 500;  // frames
 // gave the least cross-entropy of the classes of sounds (voice rms and a person reading prompts).
 constexpr float kSoftness = 0.5F;
 const float kLeast = std::exp(-7.0F);
+constexpr float kScale = 3.5F;
 
 }  // namespace
 
@@ -38,6 +39,8 @@ Cepstra CepstraMean::Without(const Cepstra& cepstra) {
   }
   return out;
 }
+
+float PhoneFeatures::Likelihood(float number) { return std::exp((number - 1) * kScale); }
 
 PhoneFeatures::PhoneFeatures(float warp, std::shared_ptr<const PhoneModel> model)
     : model_(std::move(model)), mel_(warp) {
@@ -74,7 +77,7 @@ void PhoneFeatures::ScorePending() {
     Phones phones;
     for (std::size_t p = 0; p < kPhones; ++p) {
       const float phone = likely.segment<3>(static_cast<Eigen::Index>(3 * p)).sum() / sum;
-      phones[p] = std::log(phone + kLeast) / 3.5F + 1;
+      phones[p] = std::log(phone + kLeast) / kScale + 1;
     }
     phones_.push_back(phones);
   }

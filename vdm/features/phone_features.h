@@ -34,6 +34,8 @@ class PhoneFeatures final : public SoundFeatures {
   /// Phones of the en-us model; another's cannot be used with a network made for it.
   static constexpr std::size_t kPhones = 42;
   static constexpr std::size_t kSize = LevelNormaliser::kSize + kPhones;
+  /// How likely the phone of such a number is, at least exp(-7).
+  static float Likelihood(float number);
   /// REQUIRES: `model` has kPhones phones.
   PhoneFeatures(float warp, std::shared_ptr<const PhoneModel> model);
   std::size_t size() const override { return kSize; }

@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "vdm/train/emotion_training.h"
+#include "vdm/train/people.h"
 #include "vdm/train/prosody_lessons.h"
 #include "vdm/train/recorded_track.h"
 #include "vdm/train/training.h"
@@ -25,6 +26,7 @@ constexpr const char* kSynthetic = "SYNTHETIC";
 
 struct Options {
   std::string out, work = "vdm_training", features = "mel";
+  std::string people;  // a list of recordings
   std::vector<std::string> without;
   vdm::TrainingPlan plan;
   std::string head, emotion;  // a list of recordings, or kSynthetic; empty: not asked for
@@ -47,8 +49,12 @@ void Tell(const std::string& text) { std::cerr << "vdm_train: " << text << std::
 std::vector<vdm::Take> Corpus(const Options& options) {
   const std::string path = options.work + "/takes";
   if (!std::filesystem::exists(path)) {
-    const auto takes =
-        OrThrow(vdm::MakeCorpus(vm::ProgramBeside("ssm_espeak"), options.work + "/festival", Tell));
+    const std::string espeak = vm::ProgramBeside("ssm_espeak");
+    // First what may be wrong with a list.
+    std::vector<vdm::Take> people;
+    if (!options.people.empty()) people = OrThrow(vdm::ReadPeople(options.people, espeak, Tell));
+    auto takes = OrThrow(vdm::MakeCorpus(espeak, options.work + "/festival", Tell));
+    std::ranges::move(people, std::back_inserter(takes));
     OrThrow(vdm::SaveCorpus(takes, path));
   }
   return OrThrow(vdm::LoadCorpus(path));
@@ -205,6 +211,11 @@ int main(int argc, char** argv) {
                  "mel; phones, which needs pocketsphinx-en-us; or cepstra as in the papers")
       ->check(CLI::IsMember({"mel", "phones", "cepstra"}))
       ->capture_default_str();
+  app.add_option(
+         "--people", options.people,
+         "A list of recordings of people to learn from as well, a line each: FILE, LANGUAGE "
+         "and TEXT between tabs; needs pocketsphinx-en-us")
+      ->check(CLI::ExistingFile);
   app.add_option("--without", options.without,
                  "Voices to leave out, by what their names begin with (vdm/tables/voices.txt)")
       ->delimiter(',');
