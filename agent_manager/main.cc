@@ -8,11 +8,13 @@
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "agent_manager/agent_manager.h"
 #include "agent_manager/config/am_conf.h"
 #include "vm_protocol/core/text_file.h"
+#include "vm_protocol/runtime/endpoint.h"
 
 namespace {
 
@@ -39,7 +41,7 @@ void RaiseDescriptorLimit() {
 
 /// The options of the command line.
 struct Arguments {
-  std::string config, log, clock, web, web_role, replay, do_file;
+  std::string config, listen, listen_role, log, clock, web, web_role, replay, do_file;
   bool no_console = false;
   bool slots_markdown = false;
   am::AgentManager::Options options{};
@@ -48,6 +50,13 @@ struct Arguments {
 void AddOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--config,-C", arguments.config,
                  "Configuration (JSON, or the original's am.conf; docs/configuration.md)");
+  app.add_option("--listen", arguments.listen,
+                 "Another endpoint where clients and modules may come in: unix:PATH or "
+                 "tcp:HOST:PORT");
+  app.add_option("--listen-role", arguments.listen_role,
+                 "What those who come in there may do: guest, client, module or owner (by default "
+                 "client on a Unix socket, guest elsewhere; docs/security.md)")
+      ->check(CLI::IsMember({"guest", "client", "module", "owner"}));
   app.add_option("--log", arguments.log, "Write every message to this file");
   app.add_option("--clock", arguments.clock, "real or virtual (overrides the configuration)")
       ->check(CLI::IsMember({"real", "virtual"}));
@@ -77,14 +86,29 @@ vm::Result<am::Config> ReadConfigFile(const std::string& path) {
                              : am::ParseConfig(*text, path, folder.empty() ? "." : folder);
 }
 
+/// The role of that name; none: no role is named.
+std::optional<am::Role> RoleOf(const std::string& name) {
+  for (const am::Role role : am::kRoles) {
+    if (name == am::RoleName(role)) return role;
+  }
+  return std::nullopt;
+}
+
 /// Reads the configuration file and applies the options of the command line.
 vm::Result<am::Config> ReadConfig(const Arguments& arguments) {
   auto config = arguments.config.empty() ? am::Config{} : ReadConfigFile(arguments.config);
   if (!config) return config;
   if (!arguments.log.empty()) config->log.file = arguments.log;
   if (!arguments.web.empty()) config->web.at = "tcp:127.0.0.1:" + arguments.web;
-  for (const am::Role role : am::kRoles) {
-    if (arguments.web_role == am::RoleName(role)) config->web.role = role;
+  config->web.role = RoleOf(arguments.web_role).value_or(config->web.role);
+  if (!arguments.listen.empty()) {
+    const auto wrong = [](const vm::Error& error) {
+      return vm::Fail(error.code, "--listen: " + error.text);
+    };
+    const auto endpoint = vm::ParseEndpoint(arguments.listen);
+    if (!endpoint) return wrong(endpoint.error());
+    if (auto can = vm::CheckListening(*endpoint, {}); !can) return wrong(can.error());
+    config->listen.push_back({arguments.listen, RoleOf(arguments.listen_role), {}});
   }
   if (!arguments.clock.empty()) config->virtual_clock = arguments.clock == "virtual";
   return config;

@@ -15,7 +15,7 @@ fetch() { # PACKAGE VERSION FILE...
   command -v npm >/dev/null || { echo "face_networks: npm is needed to fetch $package (Debian: apt-get install npm)" >&2; exit 1; }
   echo "face_networks: fetching $package" >&2
   work=$(mktemp -d)
-  (cd "$work" && npm pack --silent "$package" >/dev/null && tar xzf ./*.tgz) ||
+  (cd "$work" && npm pack --loglevel=error "$package" >/dev/null && tar xzf ./*.tgz) ||
     { rm -rf "$work"; echo "face_networks: npm could not fetch $package" >&2; exit 1; }
   mkdir -p "$folder/$name"
   for file in "$@"; do install -m 644 "$work/package/$file" "$folder/$name/$file"; done

@@ -149,6 +149,8 @@ done
 lends=""
 [ -z "$dialog" ] || ! grep -q 'builtin:chat' "$dialog" || lends=1
 [ -z "$model_url" ] || [ -n "$chat$lends" ] || fail "--model-url needs --chat, or a dialogue with <object classid=\"builtin:chat\">"
+[ -z "$web" ] || ! [[ $model_url =~ ^http://(127\.0\.0\.1|localhost):$web(/|$) ]] ||
+  fail "--model-url $model_url: this agent's own page is at that port; --web PORT takes another"
 [ -z "$model_url" ] || [ -z "$config" ] || fail "--model-url and --config exclude each other: put it into the configuration"
 [ -z "$model$key_file" ] || [ -n "$model_url" ] || fail "--model and --key-file need --model-url"
 [ -z "$model_url" ] || [ -n "$model" ] || fail "--model-url needs --model"
@@ -175,16 +177,16 @@ if [[ $emotion == *" "* ]] && { ! [[ ${emotion#* } =~ ^[0-9]{1,3}$ ]] || [ "${em
   fail "--emotion '$emotion': the strength is a number from 0 to 100"
 fi
 
-# The programs that this start needs; a configuration of the user's own may name any.
+# The programs that this start needs.
 needed() {
-  local example=agent
-  [ -z "$config" ] || { echo programs; return; }
-  [ -z "$chat" ] || example=chat
-  [ -z "$heard" ] || example=voice
-  echo agent_manager ssm_espeak
+  local names=$data/examples/agents/agent.json left_out=""
+  [ -z "$chat" ] || names=$data/examples/agents/chat.json
+  [ -z "$heard" ] || names=$data/examples/agents/voice.json
   # In a browser the ear is the one that takes sound.
-  grep -o 'build/bin/[a-z_]*' "$data/examples/agents/$example.json" | cut -d/ -f3 |
-    { [ -n "$web" ] && grep -vx srm_stub || cat; }
+  [ -z "$web" ] || left_out=srm_stub
+  [ -z "$config" ] || { names=$config left_out=""; }
+  echo agent_manager ssm_espeak
+  grep -o 'build/bin/[a-z_]*' "$names" | cut -d/ -f3 | grep -vx "$left_out" || true
   [ "$voice" = ssm ] || echo "$voice"
   [ -z "$web" ] || echo srm
   [ -z "$dialog" ] || echo task_manager
@@ -219,6 +221,9 @@ build() { # WHAT TARGETS [cmake options...]
   fi
   rm -f "$log"
 }
+
+# First, since it may lack npm or the net.
+[ -z "$photo" ] || "$data/scripts/face_networks.sh" </dev/null || fail "the networks that find faces in photos are not there"
 
 # What is typed meanwhile is for the agent: nothing before it reads it.
 if [ -z "$installed" ]; then
@@ -302,7 +307,6 @@ asks() { # QUESTION PROGRAM...
 }
 
 if [ -n "$photo" ]; then
-  "$data/scripts/face_networks.sh" </dev/null
   [ -n "$keep_face" ] || export GALATEA_FACES=$work/faces
   mask=${keep_face:-photo}
   "$bin/face_fit" "$photo" --name "$mask" </dev/null | sed '/^face_fit: wrote /d' >&2 || fail "no face could be made from the photo"
@@ -331,6 +335,8 @@ PYTHON
   )
   [ -z "$language" ] || echo "run_agent: the text looks like '$language'; --language en reads it as English" >&2
 fi
+# The men among the built-in people have a man's voice; Japanese finds its own.
+case $mask in pygmalion | memnon) case $language in "" | en | ja) [ -n "$heard" ] || speaker=${speaker:-rms} ;; esac ;; esac
 if [ -n "$language$speaker" ] && [ "$voice" = ssm ] && [ -z "$config" ]; then
   speakers=$(asks Speaker.all "$bin/ssm" --sink null)
   # English and Japanese texts find their voices themselves.
@@ -479,13 +485,12 @@ if [ -n "$chat" ] && [ -n "$film" ]; then
 fi
 
 # A conversation or a dialogue: the hub in the background, what the user types at as one of its clients.
-printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"role\": \"owner\"}],#" "$config")" >"$work/dialogue.json"
 {
   clear_background
   echo "to @FSM set FaceExp.onset = NATURAL"
   [ -z "$chat" ] || [ -z "$language" ] || echo "to @CHAT set Language = $language"
 } >"$work/first"
-"$hub_program" --config "$work/dialogue.json" --no-console --do "$work/first" ${web:+--web "$web" --web-role owner} 2>"$work/hub.log" &
+"$hub_program" --config "$config" --listen "unix:$work/hub" --listen-role owner --no-console --do "$work/first" ${web:+--web "$web" --web-role owner} 2>"$work/hub.log" &
 hub=$!
 # Waits until a command succeeds: as long as PROGRAM (a process) lives, 30 s at most.
 await() { # PROGRAM COMMAND...

@@ -21,12 +21,13 @@ program() { cat >"$bin/$1" && chmod +x "$bin/$1"; }
 # The hub: its socket is there a second before it tells the address of its page, if it tells it.
 program agent_manager <<'HUB'
 #!/usr/bin/env python3
-import os, re, signal, socket, sys, time
+import os, signal, socket, sys, time
 if "--version" in sys.argv:
     print("agent_manager (Galatea) 1.2.3")
     sys.exit()
-text = open(sys.argv[sys.argv.index("--config") + 1]).read()
-socket.socket(socket.AF_UNIX).bind(re.search('unix:([^"]*)', text)[1])
+def after(option): return sys.argv[sys.argv.index(option) + 1]
+open("config_read", "w").write(after("--config"))
+socket.socket(socket.AF_UNIX).bind(after("--listen").removeprefix("unix:"))
 time.sleep(1)
 if os.environ.get("HUB") == "dies":
     sys.exit("agent_manager: the port is taken")
@@ -47,6 +48,11 @@ wait "$agent" 2>/dev/null || true
 ! HUB=dies timeout 20 "$bin/galatea-agent" --web >"$work/said" 2>&1 || wrong "a dead hub is no error"
 grep -q 'the port is taken' "$work/said" || wrong "why the hub has ended is not said"
 grep -q 'run_agent: the hub has not told the address of its page' "$work/said" || wrong "there is no error of its own"
+
+# ---- a configuration of one's own is read where it lies, so that files it names are found
+echo '{"modules": []}' >mine.json
+HUB=dies timeout 20 "$bin/galatea-agent" --config mine.json --web >"$work/said" 2>&1 || true
+[ "$(cat config_read)" = "$work/mine.json" ] || wrong "the hub read '$(cat config_read)' for mine.json"
 
 # ---- any other step that fails is named
 ! timeout 20 "$bin/galatea-agent" --say hello --mask galatea --out film.mp4 >"$work/said" 2>&1 || wrong "a face that fails is no error"
@@ -69,6 +75,8 @@ for size in 9999x9999 15x480 640x$((sides + 1)) 99999999999999999999x480; do
   refuses "--size '$size': the face (fsm) is 16 to $sides pixels wide and high" --say hello --size "$size"
 done
 refuses "--size 'large': expected WIDTHxHEIGHT, such as 640x480" --say hello --size large
+refuses "--model-url http://localhost:8080/v1: this agent's own page is at that port; --web PORT takes another" \
+  --web --chat --model-url http://localhost:8080/v1 --model any
 printf '\211PNG\0\1\2' >me.jpg
 refuses "--dialog: '$work/me.jpg' is no VoiceXML document: it has no element <vxml>" --dialog me.jpg
 refuses "--dialog: cannot read '$work/folder.mp4'" --dialog folder.mp4
