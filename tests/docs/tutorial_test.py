@@ -17,7 +17,7 @@ The page's blocks are taken in order, in a folder that looks like the root of th
                             skipped here, by status 77
 
 In what is shown the folder is /home/me/galatea, a line "..." stands for any lines, and "..." within a line for anything on it.
-Blanks at the end of a line, which nobody sees, do not count. The ports 8080 to 8082 are replaced by free ones, and run_agent.sh
+Blanks at the end of a line, which nobody sees, do not count. The ports 8080 to 8083 are replaced by free ones, and run_agent.sh
 neither sets up nor builds.
 """
 from __future__ import annotations
@@ -167,7 +167,7 @@ def free_ports(text: str) -> dict[str, str]:
     """A free port for each of those a page names."""
     ports = {}
     with contextlib.ExitStack() as held:
-        for port in sorted(set(re.findall(r"\b808[0-2]\b", text))):
+        for port in sorted(set(re.findall(r"\b808[0-3]\b", text))):
             place = held.enter_context(socket.socket())
             place.bind(("127.0.0.1", 0))
             ports[port] = str(place.getsockname()[1])
