@@ -3,6 +3,7 @@
 
 Visitors never see the token (docs/tutorial/web_site.md). Usage: site.py PORT PORT_OF_THE_HUB TOKEN_FILE
 """
+import errno
 import http.server
 import pathlib
 import socket
@@ -43,5 +44,10 @@ class Site(http.server.BaseHTTPRequestHandler):
         self.close_connection = True
 
 
+try:
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", PORT), Site)
+except OSError as error:
+    why = "is taken by another program" if error.errno == errno.EADDRINUSE else f"cannot be opened ({error.strerror})"
+    sys.exit(f"site.py: port {PORT} {why}; give another one as the first argument")
 print(f"the site is at http://127.0.0.1:{PORT}/", flush=True)
-http.server.ThreadingHTTPServer(("127.0.0.1", PORT), Site).serve_forever()
+server.serve_forever()
