@@ -1,5 +1,6 @@
 """A face of 16 x 16 pixels, all red: sends one picture after another to where Picture.to says; after `set Frames = OFF`
 none, and what `Say` says (text with the escapes of Python) byte for byte. Clock and pictures have the time since its start.
+A slot that was given AutoOutput is reported when it is set.
 """
 import base64
 import codecs
@@ -16,6 +17,7 @@ PICTURE = base64.b64decode(
 connection, stop, began = None, threading.Event(), time.monotonic()
 values = {"Picture.to": "NONE", "Record": "STOP", "Run": "LIVE", "Frames": "ON",
           "MaskSet": "galatea,pygmalion", "NowMask": "galatea", "FaceExp": "ANGRY 1 60 0"}
+reported = set()
 
 
 def now_ms():
@@ -41,10 +43,14 @@ for line in sys.stdin:
         connection = None
         stop.set()
         break
+    if command == "prop":
+        reported.add(slot)
     if command == "set" and slot == "Say" and connection:
         connection.sendall(codecs.escape_decode(value.encode())[0])
     elif command == "set":
         values[slot] = value
+        if slot in reported:
+            print(f"rep {slot} = {value}", flush=True)
         if slot == "Mask":
             values["NowMask"] = value
             print("tell wears " + value, flush=True)

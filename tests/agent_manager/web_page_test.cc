@@ -327,6 +327,37 @@ TEST_F(WebPageTest, AModuleComesBackAsThePageFoundIt) {
   EXPECT_EQ(page->ReadLine(), "pygmalion");
 }
 
+TEST_F(WebPageTest, ThePickersFollowTheExpressionWhoeverSetsItExceptWhileTheyHaveTheFocus) {
+  const std::string shown =
+      "document.querySelector('#pick-emotion').value + ' ' + "
+      "document.querySelector('#strength').textContent";
+  const std::string wait = "wait:" + shown + " == ";
+  const auto page = Browse(
+      {wait + "'ANGRY 60 %'", Choose("emotion", "SAD"), Tell("chosen"), wait + "'HAPPY 75 %'",
+       "print:document.querySelector('#face').getAttribute('aria-label')",
+       "do:document.querySelector('#pick-emotion').focus()", Tell("has the focus"),
+       "wait:document.querySelector('#pick-voice').value == 'ben'", "print:" + shown,
+       "do:document.querySelector('#pick-emotion').blur()", wait + "'SMIRK 100 %'", Tell("left"),
+       wait + "'FEARED 40 %'", wait + "'NEUTRAL 40 %'", "do:location.reload()",
+       "wait:document.querySelector('#link.on') && "
+       "document.querySelector('#pick-face').value == 'galatea' && " +
+           shown + " == 'FEARED 40 %'"});
+  const auto set_expression = [this](const std::string& value) {
+    hub_->WriteLine("to @FSM set FaceExp = " + value);
+    return hub_->Expect("rep FaceExp = " + value);
+  };
+  EXPECT_TRUE(hub_->Expect("tell chosen")) << page->ErrorText() << hub_->Seen();
+  hub_->WriteLine("to @AM-MCL set Emotion = HAPPY 75");
+  EXPECT_TRUE(hub_->Expect("tell has the focus")) << page->ErrorText();
+  EXPECT_TRUE(set_expression("SMIRK"));
+  hub_->WriteLine("to @SSM set Tell = rep Speaker = ben");
+  EXPECT_TRUE(hub_->Expect("tell left")) << page->ErrorText();
+  EXPECT_TRUE(set_expression("FEARED 1 40 2000"));
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(), "the face, galatea, happy");
+  EXPECT_EQ(page->ReadLine(), "HAPPY 75 %") << "while somebody is at the picker";
+}
+
 TEST_F(WebPageTest, AnOpenPageGoesOnWhenTheHubHasBeenStartedAnew) {
   const support::TempDir state;
   const unsigned short port = FreePort();

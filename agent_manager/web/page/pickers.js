@@ -1,5 +1,6 @@
 // Which face and voice, which language, which emotion and how strong. What was chosen here, or what a module showed
-// when this page found it, is chosen again when the module comes back.
+// when this page found it, is chosen again when the module comes back. An expression is shown as the face has it, whoever
+// set it, except while somebody is at its pickers; one chosen here is forgotten once somebody else has set another.
 import {element, put, text, useLanguage} from './texts.js';
 
 const kEmotions = ['NEUTRAL', 'HAPPY', 'SAD', 'ANGRY', 'SURPRISED', 'DISGUSTED', 'FEARED'];
@@ -40,15 +41,20 @@ export class Pickers {
     this.speakers = new Map();    // of each language of the voice
     this.answers = kOwnLanguages; // the languages of the module that answers; null: any
     this.understood = null;       // those of the ear; null: any
-    nodes.emotion.value = this.chosen.emotion || 'NEUTRAL';
-    nodes.strength.value = this.chosen.strength ?? kFullStrength;
+    this.percent = kFullStrength; // the strength, also where the range has no such step
+    this.heard = '';              // the expression the face has told of while somebody was at the pickers
+    this.showExpression(this.chosen.expression ?? 'NEUTRAL');
     useLanguage(this.chosen.language || 'AUTO');
     this.showLanguages();
     for (const [what, node] of [['face', nodes.face], ['voice', nodes.voice], ['language', nodes.language],
                                 ['emotion', nodes.emotion], ['strength', nodes.strength]]) {
       node.onchange = () => this.choose(what, node.value);
     }
-    nodes.strength.oninput = () => this.show();
+    nodes.strength.oninput = () => {
+      this.percent = nodes.strength.value;
+      this.show();
+    };
+    for (const node of [nodes.emotion, nodes.strength]) node.onblur = () => this.showHeard();
     for (const node of [nodes.face, nodes.voice]) fill(node, [], '');
     this.show();
   }
@@ -84,22 +90,30 @@ export class Pickers {
   }
 
   choose(what, value) {
-    this.chosen[what] = value;
-    sessionStorage.setItem('chosen', JSON.stringify(this.chosen));
+    if (what === 'strength') this.percent = value;
+    if (what === 'emotion' || what === 'strength') {
+      const name = this.nodes.emotion.value;
+      this.chosen.expression = name === 'NEUTRAL' ? name : `${name} 1 ${this.percent} 0`;
+      this.heard = '';
+    } else {
+      this.chosen[what] = value;
+    }
+    this.keep();
     if (what === 'language') useLanguage(value), this.nameLanguages();
     this.show();
     this.set(what === 'strength' ? 'emotion' : what);
     if (what === 'language') this.speakIn(value);
   }
+  keep() { sessionStorage.setItem('chosen', JSON.stringify(this.chosen)); }
   show() {
     const {strength, strength_value, emotion, canvas, face} = this.nodes;
-    strength_value.textContent = `${strength.value} %`;
+    strength_value.textContent = `${this.percent} %`;
     strength.disabled = emotion.value === 'NEUTRAL';
     canvas.setAttribute('aria-label', [text('face'), face.value, text(emotion.value)].filter(Boolean).join(', '));
   }
   set(what) {
     const {chosen, nodes} = this;
-    const emotion = nodes.emotion.value === 'NEUTRAL' ? 'NEUTRAL' : `${nodes.emotion.value} ${nodes.strength.value}`;
+    const emotion = nodes.emotion.value === 'NEUTRAL' ? 'NEUTRAL' : `${nodes.emotion.value} ${this.percent}`;
     const [module, line] = {
       face: ['FSM', `set Mask = ${nodes.face.value}`],
       voice: ['SSM', `set Speaker = ${nodes.voice.value}`],
@@ -126,8 +140,9 @@ export class Pickers {
     if (name === 'FSM') {
       const faces = (await list('to @FSM inq MaskSet')).split(',').map(face => face.trim()).filter(Boolean);
       await restore('face', faces, 'to @FSM inq NowMask');
-      if (this.chosen.emotion) await this.set('emotion');
-      else this.showExpression(await list('to @FSM inq FaceExp'));
+      await list('to @FSM prop FaceExp = AutoOutput');  // by itself the face does not tell when somebody sets it
+      if (this.chosen.expression) await this.set('emotion');
+      else this.followExpression(await list('to @FSM inq FaceExp'));
     }
     if (name === 'SSM') {
       const voices = (await list('to @SSM inq Speaker.all')).split(/\s+/).filter(Boolean);
@@ -149,12 +164,32 @@ export class Pickers {
     if (name === 'CHAT') this.answers = codesOf(words);
     this.showLanguages();
   }
-  // "ANGRY 1 60 0": its name, pattern and strength.
+  // "ANGRY 1 60 2000": its name, pattern, strength and the ms after which it ends; what is left out is as at the face.
   showExpression(words) {
-    const [name, , strength] = words.split(/\s+/);
-    if (!kEmotions.includes(name)) return;
-    this.nodes.emotion.value = name;
-    if (name !== 'NEUTRAL' && strength) this.nodes.strength.value = strength;
+    const [name, , strength = kFullStrength] = words.split(/\s+/), {emotion} = this.nodes;
+    if (![...emotion.options].some(option => option.value === name))
+      emotion.append(element('option', {value: name, textContent: name}));
+    emotion.value = name;
+    if (name !== 'NEUTRAL') this.nodes.strength.value = this.percent = strength;
+    this.show();
+  }
+  followExpression(words) {
+    if (!words) return;
+    clearTimeout(this.ending);
+    const ms = Number(words.split(/\s+/)[3]);
+    if (ms > 0) this.ending = setTimeout(() => this.followExpression('NEUTRAL'), ms);
+    this.heard = words;
+    if (![this.nodes.emotion, this.nodes.strength].includes(document.activeElement)) this.showHeard();
+  }
+  showHeard() {
+    const words = this.heard;
+    if (!words) return;
+    this.heard = '';
+    if (words !== this.chosen.expression) {
+      delete this.chosen.expression;
+      this.keep();
+    }
+    this.showExpression(words);
   }
   // The hub has gone; one that is started anew may have another face.
   leave() { this.shown = {}; }
@@ -164,6 +199,7 @@ export class Pickers {
   }
   // Somebody else has chosen.
   hear({from, slot, value}) {
+    if (from === 'FSM' && slot === 'FaceExp') this.followExpression(value);
     if (from === 'SSM' && slot === 'Speaker' && !this.nodes.voice.disabled) this.shown.voice = this.nodes.voice.value = value;
   }
 }
