@@ -167,8 +167,10 @@ export class Pickers {
   // "ANGRY 1 60 2000": its name, pattern, strength and the ms after which it ends; what is left out is as at the face.
   showExpression(words) {
     const [name, , strength = kFullStrength] = words.split(/\s+/), {emotion} = this.nodes;
-    if (![...emotion.options].some(option => option.value === name))
-      emotion.append(element('option', {value: name, textContent: name}));
+    if (![...emotion.options].some(option => option.value === name)) {
+      this.other?.remove();  // one at a time, however many names a face may tell
+      this.other = emotion.appendChild(element('option', {value: name, textContent: name}));
+    }
     emotion.value = name;
     if (name !== 'NEUTRAL') this.nodes.strength.value = this.percent = strength;
     this.show();
