@@ -7,7 +7,7 @@ COPY . /galatea
 WORKDIR /galatea
 # dpkg-dev and file find out what the packages need. Without GoogleTest no tests are built.
 RUN apt-get update && apt-get install -y --no-install-recommends dpkg-dev file && \
-    scripts/setup.sh && scripts/build.sh && cd build && cpack
+    scripts/setup.sh && CC=gcc CXX=g++ scripts/build.sh && cd build && cpack
 
 FROM debian:12-slim
 COPY --from=build /galatea/build/galatea_*.deb /tmp/

@@ -169,6 +169,7 @@ if [ -n "$dialog" ] && [ -n "$out" ] && [ -z "$script" ]; then
   script=${dialog%.*}.txt
   [ -r "$script" ] || fail "--out with --dialog needs the user's part: --script FILE (there is no '$script')"
 fi
+emotion=${emotion^^}
 case ${emotion%% *} in
   "" | HAPPY | ANGRY | DISGUSTED | SAD | SURPRISED | FEARED | NEUTRAL) ;;
   *) fail "--emotion '$emotion': expected HAPPY, ANGRY, DISGUSTED, SAD, SURPRISED, FEARED or NEUTRAL" ;;
