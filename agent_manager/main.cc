@@ -50,12 +50,14 @@ struct Arguments {
 void AddOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--config,-C", arguments.config,
                  "Configuration (JSON, or the original's am.conf; docs/configuration.md)");
-  app.add_option("--listen", arguments.listen,
-                 "Another endpoint where clients and modules may come in: unix:PATH or "
-                 "tcp:HOST:PORT");
+  auto* listen =
+      app.add_option("--listen", arguments.listen,
+                     "Another endpoint where clients and modules may come in: unix:PATH or "
+                     "tcp:HOST:PORT");
   app.add_option("--listen-role", arguments.listen_role,
                  "What those who come in there may do: guest, client, module or owner (by default "
                  "client on a Unix socket, guest elsewhere; docs/security.md)")
+      ->needs(listen)
       ->check(CLI::IsMember({"guest", "client", "module", "owner"}));
   app.add_option("--log", arguments.log, "Write every message to this file");
   app.add_option("--clock", arguments.clock, "real or virtual (overrides the configuration)")

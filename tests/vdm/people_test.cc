@@ -98,6 +98,13 @@ TEST_F(PeopleTest, RecordingsThatSayWhatTheirTextSaysAreLearnedFrom) {
             static_cast<std::int64_t>(takes->front().samples.size()));
 }
 
+TEST_F(PeopleTest, AListOfWhichNothingFitsIsAnError) {
+  if (!std::filesystem::exists(GALATEA_BIN_DIR "/ssm_espeak")) GTEST_SKIP() << "needs ssm_espeak";
+  ASSERT_TRUE(ssm::WriteWav(folder_ / "apples.wav", Spoken("Seven yellow apples.").samples));
+  EXPECT_EQ(Read("apples.wav\ten\tNobody wishes to hear about this trip.\n").error().text,
+            (folder_ / "list").string() + ": no recording found that fits its text");
+}
+
 TEST_F(PeopleTest, AListThatIsWrongIsToldWithItsLine) {
   EXPECT_EQ(Read("no tabs here\n").error().text,
             (folder_ / "list").string() + ":1: FILE, LANGUAGE and TEXT between tabs expected");

@@ -57,7 +57,14 @@ std::vector<vdm::Take> Corpus(const Options& options) {
     std::ranges::move(people, std::back_inserter(takes));
     OrThrow(vdm::SaveCorpus(takes, path));
   }
-  return OrThrow(vdm::LoadCorpus(path));
+  auto takes = OrThrow(vdm::LoadCorpus(path));
+  const bool people = std::ranges::any_of(
+      takes, [](const vdm::Take& take) { return take.voice.starts_with("people-"); });
+  if (people == options.people.empty()) {
+    throw std::runtime_error(fmt::format("{}: made {} --people; another --work is for other speech",
+                                         path, people ? "with" : "without"));
+  }
+  return takes;
 }
 
 void ShowProgress(std::size_t epoch, std::size_t epochs, double done, Clock::time_point start) {

@@ -91,6 +91,9 @@ vm::Result<std::vector<Take>> ReadPeople(const std::string& list, const std::str
     ++fitting;
     if (number % 500 == 0) progress(fmt::format("{} recordings of people are read", number));
   }
+  if (takes.empty()) {
+    return vm::Fail(vm::Errc::kBadValue, list + ": no recording found that fits its text");
+  }
   progress(fmt::format("{} recordings of people; {} more do not fit their text", fitting, unfit));
   return takes;
 }
