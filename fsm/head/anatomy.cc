@@ -50,6 +50,10 @@ EyeAnatomy::EyeAnatomy(const Table& table)
   pupil_ = table.Only("iris").Number(2);
   shear_ = table.Only("lid_shear").Number(1);
   meet_sag_ = table.Only("meet_sag").Number(1);
+  const TableRow& below = table.Only("below_fill");
+  below_fill_ = below.Number(1);
+  below_width_ = below.Number(2);
+  if (below_width_ <= 0) below.Refuse("the width must be positive");
   for (const TableRow& row : table.RowsOf("lid_ring")) {
     lid_rings_.push_back({row.Number(1), row.Number(2), row.Number(3), row.Number(4), row.Number(5),
                           row.Number(6), row.Number(7), row.Number(8)});

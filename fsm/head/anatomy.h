@@ -48,6 +48,8 @@ class EyeAnatomy {
   /// Thickens the skin between the upper lid and the brow by this many millimetres.
   void FillUpperLid(float mm) { upper_fill_ += mm; }
   float upper_fill() const { return upper_fill_; }
+  float below_fill() const { return below_fill_; }
+  float below_width() const { return below_width_; }
   /// Returns the cornea's centre before the ball's, in mm, so that both meet at the limbus.
   float CorneaCentre() const;
   float inner_x() const { return upper_.begin_x(); }
@@ -72,6 +74,7 @@ class EyeAnatomy {
   float AngleOf(float x, float y) const;
   glm::vec3 centre_{};
   float radius_ = 0, iris_ = 0, pupil_ = 0, shear_ = 0, meet_sag_ = 0, upper_fill_ = 0;
+  float below_fill_ = 0, below_width_ = 1;  // row below_fill of tables/eye.txt
   Curve lid_radius_, upper_, lower_;
   std::vector<LidRing> lid_rings_;  // from the margin outward
 };

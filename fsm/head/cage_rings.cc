@@ -54,9 +54,15 @@ glm::vec3 PointOfRing(const EyeAnatomy& eye, const MarginPoint& at, const LidRin
   }
   p = glm::mix(p, edge, ring.to_orbit);
   const float along = (at.x - eye.inner_x()) / (eye.outer_x() - eye.inner_x());
+  if (!at.upper && !at.corner) {
+    const glm::vec3 straight = glm::mix(eye.LidPoint(at.x, margin, radius), edge,
+                                        std::min(1.0f, ring.lower_mm / eye.below_width()));
+    p.z += eye.below_fill() * std::max(0.0f, straight.z - p.z);
+    p = glm::mix(p, straight, eye.below_fill() * SmoothStep(0.55f, 0.85f, along));
+  }
   const float upper_lift = ring.upper_lift + ring.fill * eye.upper_fill();
   p.z += (at.upper ? upper_lift : ring.lower_lift) * SmoothStep(0.02f, 0.4f, along) *
-         SmoothStep(1.0f, at.upper ? 0.8f : 0.6f, along);
+         SmoothStep(1.0f, at.upper ? 0.8f : 0.85f, along);
   return p;
 }
 

@@ -138,7 +138,8 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
     paint.openness *= 1 - features.nostril_dark.shade * tag.hole;
   }
   if (tag.margin >= 0 && tag.margin < features.skin_paint.lid_rim_mm) {
-    paint.albedo = glm::mix(paint.albedo, palette.lid_rim, features.lid_rim.colour);
+    const glm::vec3 wet = palette.lid_rim * glm::mix(1.0f, features.lid_rim.upper, tag.lid_upper);
+    paint.albedo = glm::mix(paint.albedo, wet, features.lid_rim.colour);
     paint.openness *= features.lid_rim.light;
   }
   return paint;

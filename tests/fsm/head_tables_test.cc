@@ -106,7 +106,7 @@ EyeAnatomy SomeEye(const std::string& lower_y = "20 17 22") {
                           "ball 30 22 63 12\niris 6 2\nlid_radius -18 0 18\nlid_value 2 13.7 2\n"
                           "lid_shear 0\nupper_lid_x 16 30 44\nupper_lid_y 20 27 22\n"
                           "lower_lid_x 16 30 44\nlower_lid_y " +
-                              lower_y + "\nmeet_sag 3\n"));
+                              lower_y + "\nmeet_sag 3\nbelow_fill 0.5 13\n"));
 }
 
 TEST(HeadTablesTest, TheLidsEndInTheSameCorners) {

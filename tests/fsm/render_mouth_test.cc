@@ -147,7 +147,7 @@ TEST(MouthPictureTest, MoreOfTheUpperTeethIsSeenOfAFaceFromAPhoto) {
     return picture.Lip(true, 0).y - picture.Vertex(picture.mouth().incisors->upper).y;
   };
   const float built_in = below_lip(MakeHead("galatea"));
-  EXPECT_NEAR(below_lip(InPhoto()) - built_in, 1, 0.3F);
+  EXPECT_GT(below_lip(InPhoto()) - built_in, 0.3F);
 }
 
 TEST(MouthPictureTest, TongueSinksIntoTheDarkToItsSides) {
