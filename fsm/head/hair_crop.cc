@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <variant>
 #include <vector>
 
 #include "fsm/base/pi.h"
@@ -18,9 +19,9 @@ namespace {
 /// crown, which lies behind the top.
 class CropShape {
  public:
-  /// `skin`: only read here; the identity outlives this. REQUIRES: identity.crop.
+  /// `skin`: only read here; the identity outlives this. REQUIRES: its hair is a CropStyle.
   CropShape(const Identity& identity, const MeshBuilder& skin)
-      : style_(*identity.crop),
+      : style_(std::get<CropStyle>(identity.hair)),
         hair_(identity.features->crop_hair),
         look_(identity),
         scalp_(skin) {}
@@ -81,7 +82,10 @@ class CropShape {
     const auto& thickness = hair_.thickness;
     const float top = thickness.top_over_y.Ramp(d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
-    return thickness.edge + thickness.behind * thickness.behind_over_z.Ramp(d.z) +
+    // The edge itself lies on the skin, or its hairs would be dots beside the neck's outline.
+    return thickness.edge +
+           thickness.behind * thickness.behind_over_z.Ramp(d.z) *
+               thickness.behind_over_up.Ramp(up) +
            body * thickness.over_up.Ramp(up);
   }
 
@@ -118,7 +122,7 @@ class CropShape {
 class CropBuilder {
  public:
   CropBuilder(const Identity& identity, MeshBuilder& mesh)
-      : style_(*identity.crop),
+      : style_(std::get<CropStyle>(identity.hair)),
         hair_(identity.features->crop_hair),
         palette_(identity.palette),
         look_(identity),
@@ -150,8 +154,10 @@ class CropBuilder {
         const float ragged =
             r == 0 ? hair_.edge.ragged * NoiseAt(k % kAround, PaintStream::kCropEdge) : 0.0f;
         const glm::vec3 d = shape_.Direction(azimuth, kUp[r] + ragged);
-        const float uneven = 1 + hair_.shell.uneven * NoiseAt(k % kAround, PaintStream::kCropBelow,
-                                                              static_cast<int>(r));
+        // Curls gather to clumps, which are higher and lighter than what is between them.
+        const float clump = NoiseAt(k % kAround, PaintStream::kCropBelow, static_cast<int>(r));
+        const float uneven =
+            1 + glm::mix(hair_.shell.uneven, hair_.curl.uneven, style_.curl) * clump;
         const glm::vec3 p =
             shape_.scalp().Over(d, shape_.Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
         const glm::vec3 colour =
@@ -159,7 +165,9 @@ class CropBuilder {
                      hair_.shell.streaks * (1 - style_.curl));
         const float thin = r == 0 ? hair_.edge.hair : 1.0f;
         mesh_.Add(p, glm::mix(palette_.skin * hair_.edge.skin, colour, thin),
-                  r < 3 ? hair_.shell.edge_light : hair_.shell.light, Bone::kSkull);
+                  (r < 3 ? hair_.shell.edge_light : hair_.shell.light) *
+                      (1 + hair_.curl.mottled * style_.curl * (clump - 1)),
+                  Bone::kSkull);
         mesh_.strands.back() = {
             .along = shape_.Along(d, shape_.Forehead(azimuth, kUp[r])),
             .density = r < edge_density.size() ? edge_density[r] : 1.0f,

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <variant>
 #include <vector>
 
 #include "fsm/base/pi.h"
@@ -21,13 +23,14 @@ class LongShape {
  public:
   static constexpr float kCap = 0.58f, kEnd = 1.0f;
 
-  /// `skin`: only read here; the identity outlives this.
+  /// `skin`: only read here; the identity outlives this. REQUIRES: its hair is a LongStyle.
   LongShape(const Identity& identity, const MeshBuilder& skin)
-      : style_(identity.long_hair),
+      : style_(std::get<LongStyle>(identity.hair)),
         hair_(identity.features->long_hair),
         volume_(hair_.volume.half_axes + style_.full_mm),
         look_(identity),
-        scalp_(skin) {}
+        scalp_(skin),
+        cloth_(ClothOf(skin)) {}
 
   /// Returns a place, `out_mm` farther out than the surface of the hair.
   glm::vec3 Point(float around, Side side, float along, float out_mm) const {
@@ -86,6 +89,15 @@ class LongShape {
   }
 
  private:
+  static std::vector<glm::vec3> ClothOf(const MeshBuilder& mesh) {
+    std::vector<glm::vec3> cloth;
+    for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+      if (mesh.bone[i] == Bone::kSkin && mesh.weights[i].skin.neck <= 0)
+        cloth.push_back(mesh.position[i]);
+    }
+    return cloth;
+  }
+
   glm::vec3 OnParting(float degrees) const {
     const float along = degrees * kPi / 180;
     const float wander = std::sin(0.31f * degrees) + 0.7f * std::sin(0.83f * degrees + 1);
@@ -134,6 +146,8 @@ class LongShape {
     const auto& ends = hair_.ends;
     const float sign = SignOf(side);
     return glm::mix(style_.front_y, style_.back_y, std::sqrt(ends.over_around.Ramp(around))) +
+           // What would end on top of the shoulder ends above it.
+           ends.shoulder * Bell(around - ends.shoulder_around, ends.shoulder_width) +
            ends.uneven * (std::sin(17 * around + sign) +
                           ends.shorter_waves * std::sin(43 * around + 2 * sign));
   }
@@ -159,6 +173,25 @@ class LongShape {
     // Beside the face it follows the cheek.
     p.x -= SignOf(side) * front * hanging.cheek *
            std::sin(std::min(1.0f, hanging.cheek_quarter_waves * hang) * kPi * 0.5f);
+    return OffBody(around, p);
+  }
+
+  /// Moves a place before or behind the shoulder, if it is not.
+  glm::vec3 OffBody(float around, glm::vec3 p) const {
+    const auto& shoulder = hair_.shoulder;
+    // Exceeds 0 smoothly, so that hair does not bend where it comes to lie on cloth.
+    const auto above = [&shoulder](float x) {
+      return x > 20 * shoulder.soft ? x : shoulder.soft * std::log1p(std::exp(x / shoulder.soft));
+    };
+    float before = -1000, behind = 1000;
+    for (const glm::vec3 c : cloth_) {
+      const glm::vec2 aside = glm::vec2(p) - glm::vec2(c);
+      const float round = glm::dot(aside, aside) / shoulder.round;
+      before = std::max(before, c.z - round + shoulder.off);
+      behind = std::min(behind, c.z + round - shoulder.off);
+    }
+    p.z = glm::mix(behind - above(behind - p.z), before + above(p.z - before),
+                   shoulder.over_around.Ramp(around));
     return p;
   }
 
@@ -185,13 +218,14 @@ class LongShape {
   const glm::vec3 volume_;
   const HairLook look_;
   const Scalp scalp_;
+  const std::vector<glm::vec3> cloth_;
 };
 
 /// Adds the hair of that shape to a mesh.
 class LongHairBuilder {
  public:
   LongHairBuilder(const Identity& identity, MeshBuilder& mesh)
-      : style_(identity.long_hair),
+      : style_(std::get<LongStyle>(identity.hair)),
         hair_(identity.features->long_hair),
         palette_(identity.palette),
         look_(identity),
@@ -200,12 +234,17 @@ class LongHairBuilder {
 
   void Build() {
     Shade();
+    const std::size_t first = mesh_.position.size();
     for (const Side side : kSides) {
       Shell(side);
       Lining(side);
       Locks(side);
+      for (int k = 0; k < static_cast<int>(hair_.frame.count); ++k) FrameLock(side, k);
       Flyaways(side);
     }
+    // What lies on the shoulders stays there as the head turns.
+    for (std::size_t i = first; i < mesh_.position.size(); ++i)
+      mesh_.weights[i].skin.neck = hair_.shoulder.turns_over_y.Ramp(mesh_.position[i].y);
   }
 
  private:
@@ -229,8 +268,8 @@ class LongHairBuilder {
   void Shell(Side side) {
     const auto& light = hair_.light;
     constexpr int kStrands = 22;
-    constexpr int kCapRows = 19;  // the skull is round; hanging hair is nearly straight
-    constexpr int kRows = 27;
+    constexpr int kCapRows = 16;  // the skull is round; hanging hair is nearly straight
+    constexpr int kRows = 26;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Strands are denser at the face, where the edge is visible.
@@ -305,11 +344,11 @@ class LongHairBuilder {
       const float to = locks.to.At(NoiseAt(seed, PaintStream::kLockTo));
       const float lift = locks.lift.At(NoiseAt(seed, PaintStream::kLockLift));
       std::vector<glm::vec3> path;
-      constexpr int kSteps = 10;
+      constexpr int kSteps = 11;
       for (int s = 0; s <= kSteps; ++s) {
         // Steps are shorter over the skull, which is round.
         const float v = std::pow(static_cast<float>(s) / kSteps, locks.crowd_power);
-        const float drift = locks.drift * std::sin(4 * v + static_cast<float>(k));
+        const float drift = locks.drift * v * std::sin(locks.turns * v + 2 * static_cast<float>(k));
         path.push_back(shape_.Point(std::clamp(around + drift, 0.0f, 1.0f), side,
                                     glm::mix(from, to, v),
                                     lift * std::sin(kPi * locks.arch.At(v))));
@@ -321,6 +360,33 @@ class LongHairBuilder {
                      .fray_from = locks.fray_from},
                     seed, mesh_);
     }
+  }
+
+  /// Adds a thin lock at the edge, nearer to the face than the others.
+  void FrameLock(Side side, int k) {
+    const auto& frame = hair_.frame;
+    const int seed = k + (side == Side::kLeft ? 1300 : 1100);
+    const float nearer = frame.nearer.At(NoiseAt(seed, PaintStream::kLockPlace));
+    const float from = frame.from.At(NoiseAt(seed, PaintStream::kLockFrom));
+    const float to = frame.to.At(NoiseAt(seed, PaintStream::kLockTo));
+    const float phase = 3 * NoiseAt(seed, PaintStream::kLockLift);
+    std::vector<glm::vec3> path;
+    constexpr int kSteps = 14;
+    for (int s = 0; s <= kSteps; ++s) {
+      const float v = static_cast<float>(s) / kSteps;
+      const float along = glm::mix(from, to, v);
+      glm::vec3 p = shape_.Point(frame.around, side, along,
+                                 frame.lift * std::sin(kPi * std::min(1.0f, 0.15f + v)));
+      p.x -= SignOf(side) * v *
+             (nearer * std::sin(kPi * v) + frame.wave * std::sin(frame.turns * v + phase));
+      path.push_back(p);
+    }
+    look_.AddLock(path,
+                  {.width_mm = frame.width.At(NoiseAt(seed, PaintStream::kLockWidth)),
+                   .root_share = 0.5f,
+                   .tip_share = 0.2f,
+                   .fray_from = 0.7f},
+                  seed, mesh_);
   }
 
   /// Adds single hairs that stand off the others.

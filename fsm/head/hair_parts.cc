@@ -98,7 +98,7 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
     const auto i = static_cast<std::size_t>(k);
     const float t = static_cast<float>(k) / static_cast<float>(last);
     const glm::vec3 step = path[std::min(i + 1, path.size() - 1)] - path[i > 0 ? i - 1 : 0];
-    const glm::vec3 outward = path[i] - kHairCentre;
+    const glm::vec3 outward = style.outward == glm::vec3(0) ? path[i] - kHairCentre : style.outward;
     glm::vec3 across = glm::cross(step, outward);
     const float length = glm::length(across);
     across = length > 1e-4f ? across / length : glm::vec3(1, 0, 0);

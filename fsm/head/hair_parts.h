@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "fsm/head/identity.h"
@@ -37,6 +38,7 @@ struct LockStyle {
   float root_density = 0;  ///< density of the hairs at the root, 0..1
   float open = 1;          ///< openness to light, 0..1
   float tip_light = 1.1f;  ///< brightness at the tip relative to the root
+  glm::vec3 outward{0};    ///< direction that its flat side faces; 0: away from kHairCentre
   bool single = false;     ///< a single hair, whose sides do not fray
 };
 /// The look that all hair styles share. Lifetime: the identity must outlive it.
@@ -45,7 +47,9 @@ class HairLook {
   explicit HairLook(const Identity& identity)
       : features_(*identity.features),
         palette_(identity.palette),
-        hairline_(CurveOf(features_.hairline)) {}
+        hairline_(CurveOf(std::holds_alternative<CombedStyle>(identity.hair)
+                              ? std::span<const float>(features_.combed_hair.line)
+                              : std::span<const float>(features_.hairline))) {}
 
   /// Returns the elevation at which the hair begins on the skin, by azimuth; degrees.
   float HairlineElevation(float azimuth) const { return hairline_(std::abs(azimuth)); }

@@ -83,8 +83,10 @@ class HairSprings {
     const int one = static_cast<int>(std::floor(place)) % around_;
     for (const auto& [column, share] :
          {std::pair(one, 1 - second), std::pair((one + 1) % around_, second)}) {
-      if (weight * share < kMinWeight) continue;
-      rig.spring_rig.weights.push_back({v, SpringAt(row, column, rig), weight * share});
+      // What does not turn with the head does not swing either.
+      const float swings = weight * share * rig.weights[v].neck;
+      if (swings < kMinWeight) continue;
+      rig.spring_rig.weights.push_back({v, SpringAt(row, column, rig), swings});
     }
   }
 

@@ -59,24 +59,40 @@ void ReadSlider(const TableRow& row, Identity& identity) {
 
 void ReadHair(const TableRow& row, Identity& identity) {
   if (row.Word(1) == "crop") {
-    identity.crop = CropStyle{row.Within(2, -5, 60),
-                              row.Within(3, -5, 60),
-                              row.Integer(4),
-                              row.Within(5, 0, 100),
-                              row.Within(6, -2, 10),
-                              row.Within(7, 0, 20),
-                              row.Within(8, 0, 1),
-                              row.Within(9, 0, 45),
-                              row.size() > 10 ? row.Within(10, 0, 1) : 0.0f};
-    if (identity.crop->locks < 0 || identity.crop->locks > 500) row.Refuse("0 to 500 locks");
+    CropStyle crop{row.Within(2, -5, 60),
+                   row.Within(3, -5, 60),
+                   row.Integer(4),
+                   row.Within(5, 0, 100),
+                   row.Within(6, -2, 10),
+                   row.Within(7, 0, 20),
+                   row.Within(8, 0, 1),
+                   row.Within(9, 0, 45),
+                   row.size() > 10 ? row.Within(10, 0, 1) : 0.0f};
+    if (crop.locks < 0 || crop.locks > 500) row.Refuse("0 to 500 locks");
     row.EndsAt(11);
+    identity.hair = crop;
   } else if (row.Word(1) == "long") {
-    identity.crop.reset();
-    identity.long_hair = {row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30),
-                          row.Within(4, -160, -20), row.Within(5, -160, -20), row.Within(6, 0, 12)};
+    identity.hair =
+        LongStyle{row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30), row.Within(4, -220, -20),
+                  row.Within(5, -240, -20), row.Within(6, 0, 12)};
     row.EndsAt(7);
+  } else if (row.Word(1) == "tied") {
+    CombedStyle tied{.side_mm = row.Within(2, -5, 60),
+                     .top_mm = row.Within(3, -5, 60),
+                     .loose = row.Integer(6),
+                     .tail = CombedStyle::Tail{row.Within(4, 10, 110), row.Within(5, -200, 0)}};
+    if (tied.loose < 0 || tied.loose > 8) row.Refuse("0 to 8 loose strands");
+    row.EndsAt(7);
+    identity.hair = tied;
+  } else if (row.Word(1) == "swept") {
+    identity.hair = CombedStyle{.side_mm = row.Within(2, -5, 60),
+                                .top_mm = row.Within(3, -5, 60),
+                                .tail = {},
+                                .wave_mm = row.Within(4, 0, 12),
+                                .aside = row.Within(5, -1, 1)};
+    row.EndsAt(6);
   } else {
-    row.Refuse("long or crop expected");
+    row.Refuse("long, crop, tied or swept expected");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "fsm/base/table_reader.h"
@@ -53,13 +54,25 @@ struct LongStyle {
   float wave_mm = 2.2f;   ///< sideways swing of hanging hair
 };
 
+/// Hair that is combed back from the whole hairline.
+struct CombedStyle {
+  float side_mm, top_mm;  ///< thickness over the skin
+  int loose = 0;          ///< number of strands that hang at each temple
+  /// Tied to a tail behind; none: short hair that ends at the nape.
+  struct Tail {
+    float tie_y, end_y;  ///< millimetres
+  };
+  std::optional<Tail> tail;
+  float wave_mm = 0;  ///< swing of its waves
+  float aside = 0;    ///< how far to the agent's left it is combed on top, -1..1
+};
+
 /// The differences of a face from the base head; a block of tables/identities.txt.
 struct Identity {
   std::size_t index = 0;  ///< index in Identities()
   Palette palette = BasePalette();
   std::vector<std::pair<std::string, float>> sliders;
-  std::optional<CropStyle> crop;  ///< none: long hair
-  LongStyle long_hair;
+  std::variant<LongStyle, CropStyle, CombedStyle> hair;
   EyeTransform eyes;  ///< of the left eye; `shift` follows from the sliders
   /// The fold of the upper lid, relative to the base head's.
   struct LidFold {

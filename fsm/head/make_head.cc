@@ -108,6 +108,7 @@ struct FormedHead {
   FormedHead(const HeadForm& form, const MeshBuilder& base_mesh)
       : mesh(base_mesh),
         base(base_mesh.position),
+        hangs_from(base_mesh.position.size()),
         eyes(form.eye_transforms()),
         teeth(form.teeth()) {
     form.Shape(mesh);
@@ -115,6 +116,7 @@ struct FormedHead {
 
   MeshBuilder mesh;
   std::vector<glm::vec3> base;  ///< rest form of the base head without hair
+  std::size_t hangs_from;       ///< the first vertex of hair that swings
   Sided<EyeTransform> eyes;
   TeethTransform teeth;  ///< relative to the base head
 };
@@ -168,8 +170,12 @@ RigData RigOf(const HeadSources& from, const BaseSkin& skin, const FormedHead& h
   const std::size_t hair_first = head.base.size();
   rig.rest = head.mesh.position;
   rig.rest_normal = Normals(surface.indices, rig.rest, rig.rest.size());
-  HairLook(identity).AlignNormals(std::span(rig.rest).subspan(hair_first),
-                                  std::span(rig.rest_normal).subspan(hair_first));
+  // A tail that hangs is lit as a body of its own.
+  const std::size_t aligned =
+      std::holds_alternative<CombedStyle>(identity.hair) ? head.hangs_from : rig.rest.size();
+  HairLook(identity).AlignNormals(
+      std::span(rig.rest).subspan(hair_first, aligned - hair_first),
+      std::span(rig.rest_normal).subspan(hair_first, aligned - hair_first));
   rig.bone = head.mesh.bone;
   for (const BakeWeights& vertex : head.mesh.weights) rig.weights.push_back(vertex.skin);
   rig.units = BuiltInUnits();
@@ -193,9 +199,7 @@ RigData RigOf(const HeadSources& from, const BaseSkin& skin, const FormedHead& h
     if (rig.bone[*corner] != Bone::kSkin) continue;
     rig.normals.soft_triangles.insert(rig.normals.soft_triangles.end(), corner, corner + 3);
   }
-  if (!identity.crop) {
-    AddHairSprings(Table("tables/hair_springs.txt", embedded::hair_springs()), hair_first, rig);
-  }
+  AddHairSprings(Table("tables/hair_springs.txt", embedded::hair_springs()), head.hangs_from, rig);
   return rig;
 }
 
@@ -236,15 +240,25 @@ HeadAsset AssetOf(Identity own) {
   BuildCloth(identity, parts.mesh);
   AddBrowsAndFolds(from, front, parts);
   parts.Add(BuildStubble(front, SkinPainter(identity, from.eye), identity));
-  parts.Add(identity.crop ? CroppedHairline(identity, parts.mesh)
-                          : LongHairline(identity, parts.mesh));
+  const bool tied = std::holds_alternative<CombedStyle>(identity.hair);
+  const bool crop = std::holds_alternative<CropStyle>(identity.hair);
+  parts.Add(crop   ? CroppedHairline(identity, parts.mesh)
+            : tied ? CombedHairline(identity, parts.mesh)
+                   : LongHairline(identity, parts.mesh));
   BuildLashes(from.eye, identity, false, parts.mesh);
   AddEyesAndMouth(from, parts.mesh);
-  if (identity.crop) BuildEars(identity, parts.mesh);  // long hair covers them
+  if (crop || tied) BuildEars(identity, parts.mesh);  // long hair covers them
   FormedHead head(
       HeadForm(from.eye, from.mouth, from.sliders, nullptr, {}, parts.mesh, identity.eyes),
       parts.mesh);
-  identity.crop ? BuildCroppedHair(identity, head.mesh) : BuildLongHair(identity, head.mesh);
+  if (tied) {
+    head.hangs_from = BuildCombedHair(identity, head.mesh);
+  } else if (crop) {
+    BuildCroppedHair(identity, head.mesh);
+    head.hangs_from = head.mesh.position.size();
+  } else {
+    BuildLongHair(identity, head.mesh);
+  }
   return AssetOf(from, skin, parts, head);
 }
 

@@ -200,6 +200,17 @@ TEST(HairSpringsTest, LongHairSwingsAndNothingElseDoes) {
   EXPECT_TRUE(MakeHead("pygmalion")->rig().data().spring_rig.springs.empty());
 }
 
+TEST(HairSpringsTest, OfTiedHairOnlyTheTailAndLooseStrandsSwing) {
+  const auto head = MakeHead("zhenzhen");
+  const RigData& rig = head->rig().data();
+  ASSERT_FALSE(rig.spring_rig.weights.empty());
+  for (const auto& [vertex, spring, weight] : rig.spring_rig.weights) {
+    const glm::vec3 p = rig.rest[vertex];
+    EXPECT_TRUE(p.z < -85 || p.z > 20) << "lies on the head: " << p.x << " " << p.y << " " << p.z;
+  }
+  EXPECT_TRUE(MakeHead("baucis")->rig().data().spring_rig.springs.empty());
+}
+
 TEST(HairSpringsTest, NeighboursGoAlong) {
   // No edge of the hair tears: vertices of a triangle swing nearly alike.
   const auto head = MakeHead("galatea");

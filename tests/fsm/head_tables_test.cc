@@ -352,10 +352,34 @@ TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
               longer = lowest("hair long 0 0 -84 -150 0");
   EXPECT_NEAR(usual, -120, 8);
   EXPECT_NEAR(usual - longer, 150 - 112, 5);
-  EXPECT_FALSE(Changed("pygmalion", {"hair long 0 0 -84 -112 0"}).crop)
+  EXPECT_TRUE(
+      std::holds_alternative<LongStyle>(Changed("pygmalion", {"hair long 0 0 -84 -112 0"}).hair))
       << "who had short hair has it long";
   EXPECT_EQ(Complaint([] { Changed("pygmalion", {"hair long 0.7 0 -84 -112 0"}); }),
             "i.txt:2: '0.7' found where -0.6 to 0.6 was expected");
+}
+
+TEST(HeadTablesTest, CombedHairEndsWhereItsRowSays) {
+  const auto lowest = [](const char* row) {
+    const auto head = MakeSymmetricHead(Changed("zhenzhen", {row}));
+    float low = 100;
+    for (const auto& part : head->surface().parts) {
+      if (part.material != Material::kHair) continue;
+      for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k)
+        low = std::min(low, head->rig().data().rest[head->surface().indices[k]].y);
+    }
+    return low;
+  };
+  EXPECT_NEAR(lowest("hair tied 4 7 58 -125 0"), -140, 12);
+  EXPECT_NEAR(lowest("hair tied 4 7 58 -70 0"), -82, 12);
+  EXPECT_GT(lowest("hair swept 10 19 3 0"), -60) << "the nape";
+  const auto complaint = [](const char* row) {
+    return Complaint([row] { Changed("zhenzhen", {row}); });
+  };
+  EXPECT_EQ(complaint("hair tied 4 7 5 -125 0"), "i.txt:2: '5' found where 10 to 110 was expected");
+  EXPECT_EQ(complaint("hair tied 4 7 58 -125 9"), "i.txt:2: 0 to 8 loose strands");
+  EXPECT_EQ(complaint("hair swept 10 19 3 2"), "i.txt:2: '2' found where -1 to 1 was expected");
+  EXPECT_EQ(complaint("hair shorn"), "i.txt:2: long, crop, tied or swept expected");
 }
 
 TEST(HeadTablesTest, FeaturesAreChecked) {

@@ -28,5 +28,7 @@ void main() {
   lobe.x *= lobe.x;
   vec3 seen = light * (1.0 + look_streaks_seen * streak) +
               key_light * lobe.y + gleam.rgb * (tilt.z * lobe.x);
+  // A lock is round: its sides get less light.
+  seen *= 1.0 - look_lock_sides * gleam.a * fray.y * fray.y;
   colour = vec4(ToScreen(max(seen, 0.0)), 1.0);
 }
