@@ -119,7 +119,7 @@ class LashBuilder {
     const std::uint32_t b = Add(root + glm::vec3(width, 0, 0), x, dark);
     const std::uint32_t c = Add(middle - glm::vec3(0.6f * width, 0, 0), x, dark);
     const std::uint32_t d = Add(middle + glm::vec3(0.6f * width, 0, 0), x, dark);
-    const std::uint32_t e = Add(tip, x, (of_photo_ ? 0.2f : 0.75f) * dark);
+    const std::uint32_t e = Add(tip, x, (of_photo_ ? 0.2f : 1.0f) * dark);
     Face(a, b, d);
     Face(a, d, c);
     Face(c, d, e);

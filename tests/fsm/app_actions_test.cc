@@ -56,7 +56,7 @@ TEST_F(ActionsTest, ExpressionsAreDefinedShownAskedAndDeleted) {
 
 TEST_F(ActionsTest, PrototypesAreSlotsWhichCanBeEditedSavedAndBroughtBack) {
   EXPECT_EQ(fsm.Say("inq FaceExp.HAPPY.1"),
-            "rep FaceExp.HAPPY.1 = 6:1.2 7:0.1 10:0.1 12:1 25:1 26:0.15");
+            "rep FaceExp.HAPPY.1 = 6:1.1 7:0.1 10:0.4 12:1 25:1.2 26:0.2");
   fsm.Say("save mine = FaceExp.HAPPY.1");
   EXPECT_EQ(fsm.Say("set#1 FaceExp.HAPPY.1 = 12 1 6 D"), "rep#1 FaceExp.HAPPY.1 = 12 1 6 D");
   fsm.Say("set FaceExp = HAPPY 1 100 0");
@@ -69,7 +69,7 @@ TEST_F(ActionsTest, PrototypesAreSlotsWhichCanBeEditedSavedAndBroughtBack) {
   fsm.Say("set FaceExp.HAPPY.1 = 12 0.1");
   fsm.Say("set Run = INIT");
   EXPECT_EQ(fsm.Say("inq FaceExp.HAPPY.1"),
-            "rep FaceExp.HAPPY.1 = 6:1.2 7:0.1 10:0.1 12:1 25:1 26:0.15");
+            "rep FaceExp.HAPPY.1 = 6:1.1 7:0.1 10:0.4 12:1 25:1.2 26:0.2");
 }
 
 TEST_F(ActionsTest, BadInputIsRefusedWithOneClearErrorAndTheFaceGoesOn) {
