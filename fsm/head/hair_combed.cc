@@ -16,8 +16,9 @@
 namespace fsm {
 namespace {
 
-/// The shape of hair that is combed back from the whole hairline. A place in it: azimuth of the root
-/// at the hairline, within +-reach(); `up` 0 there .. 1 at the tie, or at the ends of short hair.
+/// The shape of hair that is combed back from the whole hairline. A place in it: azimuth of the
+/// root at the hairline, within +-reach(); `up` 0 there .. 1 at the tie, or at the ends of short
+/// hair.
 class CombedShape {
  public:
   /// `skin`: only read here; the identity outlives this. REQUIRES: its hair is a CombedStyle.
@@ -39,8 +40,8 @@ class CombedShape {
   /// Returns the direction of a root from kHairCentre.
   glm::vec3 Root(float azimuth) const {
     const float round = glm::radians(azimuth);
-    const float wander = hair_.wander.wide * std::sin(9 * round + 1) +
-                         hair_.wander.narrow * std::sin(31 * round);
+    const float wander =
+        hair_.wander.wide * std::sin(9 * round + 1) + hair_.wander.narrow * std::sin(31 * round);
     return HairDirection(azimuth, look_.HairlineElevation(azimuth) + wander);
   }
   /// Returns the angle from a root to the tie or to the ends, degrees.
@@ -184,40 +185,39 @@ class CombedBuilder {
     for (int r = 0; r < rows; ++r) {
       const auto row = static_cast<std::size_t>(r);
       for (int k = 0; k <= around; ++k) {
-        const float azimuth = shape_.reach() * (2 * static_cast<float>(k) / static_cast<float>(around) - 1);
+        // Columns are denser in front, where the way to the tie is longest.
+        const float turn = 2 * static_cast<float>(k) / static_cast<float>(around) - 1;
+        const float azimuth =
+            shape_.reach() * (style_.tail ? glm::mix(turn * turn * turn, turn, 0.6f) : turn);
         const float degrees = shape_.Degrees(azimuth);
         // Where the way to the tie is short, as at the nape, the edge is narrower.
         const float step = std::min(1 / degrees, hair_.edge.most_up);
         const float edge_up = step * edge_degrees[kEdgeRows - 1];
-        const float up =
-            r < kEdgeRows
-                ? step * edge_degrees[row]
-                : glm::mix(edge_up, 1.0f,
-                           static_cast<float>(r - kEdgeRows + 1) /
-                               static_cast<float>(rows - kEdgeRows));
+        const float up = r < kEdgeRows ? step * edge_degrees[row]
+                                       : glm::mix(edge_up, 1.0f,
+                                                  static_cast<float>(r - kEdgeRows + 1) /
+                                                      static_cast<float>(rows - kEdgeRows));
         const float ragged =
             r == 0 ? hair_.edge.ragged * NoiseAt(k % around, PaintStream::kCropEdge) : 0.0f;
         // Combed strands lie a little higher and lower than others.
         const float comb = hair_.shell.comb * NoiseAt(k % around, PaintStream::kPointed) *
                            SmoothStep(0, 0.3f, up) * SmoothStep(1, 0.8f, up);
         const glm::vec3 p = shape_.Point(azimuth, up + ragged, r < kEdgeRows ? 0 : comb);
-        const glm::vec3 colour =
-            glm::mix(palette_.hair, look_.StrandColour(3 * (k % around), r), hair_.shell.streaks);
-        const float gathered = style_.tail
-                                   ? glm::mix(1.0f, hair_.shell.tie_light, SmoothStep(0.8f, 1, up))
-                                   : 1.0f;
+        const glm::vec3 colour = glm::mix(palette_.hair, look_.StrandColour(3 * (k % around), r),
+                                          hair_.shell.streaks.At(style_.tail ? 1.0f : 0.0f));
+        const float gathered =
+            style_.tail ? glm::mix(1.0f, hair_.shell.tie_light, SmoothStep(0.8f, 1, up)) : 1.0f;
         const float open = (r < kEdgeRows ? hair_.shell.edge_light : hair_.shell.light) *
                            (1 + hair_.shell.comb_light * comb +
                             hair_.waves.light * (shape_.Crest(azimuth, up) - 1)) *
                            gathered;
         mesh_.Add(p, colour, std::min(1.0f, open), Bone::kSkull);
-        mesh_.strands.back() = {
-            .along = shape_.Along(azimuth, up + ragged),
-            .density = r < kEdgeRows ? edge_density[row]
-                       : style_.tail ? 1.0f
-                                     : hair_.swept.thins.Ramp(up),
-            .across = hair_.shell.across,
-            .tile_mm = {kRoundMm * azimuth / 360, -1.7f * up * degrees}};
+        mesh_.strands.back() = {.along = shape_.Along(azimuth, up + ragged),
+                                .density = r < kEdgeRows ? edge_density[row]
+                                           : style_.tail ? 1.0f
+                                                         : hair_.swept.thins.Ramp(up),
+                                .across = hair_.shell.across.At(style_.tail ? 1.0f : 0.0f),
+                                .tile_mm = {kRoundMm * azimuth / 360, -1.7f * up * degrees}};
       }
     }
     mesh_.Grid(Material::kHair, first, rows, around + 1, true);
@@ -227,9 +227,8 @@ class CombedBuilder {
   void Lock(int k) {
     const auto& locks = hair_.locks;
     const int seed = k + 300;
-    const float azimuth =
-        locks.azimuth * ((2 * static_cast<float>(k) + 1) / locks.count - 1) +
-        locks.uneven * NoiseAt(seed, PaintStream::kLockPlace);
+    const float azimuth = locks.azimuth * ((2 * static_cast<float>(k) + 1) / locks.count - 1) +
+                          locks.uneven * NoiseAt(seed, PaintStream::kLockPlace);
     const float from = locks.from.At(0.5f + 0.5f * NoiseAt(seed, PaintStream::kLockFrom));
     const float to = locks.to.At(NoiseAt(seed, PaintStream::kLockTo));
     const float lift = locks.lift.At(NoiseAt(seed, PaintStream::kLockLift));
@@ -258,8 +257,7 @@ class CombedBuilder {
     const int seed = k + 1500;
     const float azimuth = flyaways.azimuth * NoiseAt(seed, PaintStream::kFlyawayPlace);
     const float from = flyaways.from.At(0.5f + 0.5f * NoiseAt(seed, PaintStream::kFlyawayFrom));
-    const float length =
-        flyaways.length * (1 + 0.5f * NoiseAt(seed, PaintStream::kFlyawayLength));
+    const float length = flyaways.length * (1 + 0.5f * NoiseAt(seed, PaintStream::kFlyawayLength));
     const float drift = flyaways.drift * NoiseAt(seed, PaintStream::kFlyawayDrift);
     const float off = flyaways.off * (0.6f + 0.4f * NoiseAt(seed, PaintStream::kFlyawayOff));
     std::vector<glm::vec3> path;
@@ -269,9 +267,9 @@ class CombedBuilder {
       path.push_back(shape_.Point(azimuth + drift * v * v, std::min(from + length * v, 0.97f),
                                   off * std::sin(kPi * (0.1f + 0.8f * v))));
     }
-    look_.AddLock(path,
-                  {.width_mm = flyaways.width, .tip_share = 0.3f, .fray_from = 0.9f, .single = true},
-                  seed, mesh_);
+    look_.AddLock(
+        path, {.width_mm = flyaways.width, .tip_share = 0.3f, .fray_from = 0.9f, .single = true},
+        seed, mesh_);
   }
 
   /// Returns a point of the tail's axis; s: 0 at the tie .. 1 at the end.
@@ -299,8 +297,8 @@ class CombedBuilder {
   }
   glm::vec3 TailPoint(float s, float turn, float out_mm) const {
     const glm::vec3 out = TailOut(s, turn);
-    const float wave = hair_.tail.wave * SmoothStep(0, 0.5f, s) *
-                       std::sin(2 * kPi * hair_.tail.waves * s + turn);
+    const float wave =
+        hair_.tail.wave * SmoothStep(0, 0.5f, s) * std::sin(2 * kPi * hair_.tail.waves * s + turn);
     return TailAxis(s) + out * (TailRadius(s) + out_mm) * glm::vec3(hair_.tail.wide, 1, 1) +
            glm::vec3(wave, 0, 0);
   }
@@ -319,7 +317,8 @@ class CombedBuilder {
         const float open = glm::mix(tail.inside_light, 1.0f, 0.5f + 0.5f * std::cos(turn)) *
                            glm::mix(tail.tie_light, 1.0f, SmoothStep(0, 0.16f, s));
         const glm::vec3 colour = look_.StrandColour(5 * (k % kAround) + 200, r);
-        mesh_.Add(p, glm::mix(palette_.hair, colour, hair_.shell.streaks), open, Bone::kSkull);
+        mesh_.Add(p, glm::mix(palette_.hair, colour, hair_.shell.streaks.At(1.0f)), open,
+                  Bone::kSkull);
         mesh_.strands.back() = {.along = TailAlong(s),
                                 .density = tail.thins.Ramp(s),
                                 .tile_mm = {80 * turn / (2 * kPi), 170 * s}};
@@ -351,9 +350,9 @@ class CombedBuilder {
   void TailLock(int k) {
     const auto& locks = hair_.tail_locks;
     const int seed = k + 700;
-    const float turn =
-        2 * kPi * (static_cast<float>(k) + 0.4f * NoiseAt(seed, PaintStream::kLockPlace)) /
-        hair_.tail.locks;
+    const float turn = 2 * kPi *
+                       (static_cast<float>(k) + 0.4f * NoiseAt(seed, PaintStream::kLockPlace)) /
+                       hair_.tail.locks;
     const float from = locks.from.At(0.5f + 0.5f * NoiseAt(seed, PaintStream::kLockFrom));
     const float to = locks.to.At(NoiseAt(seed, PaintStream::kLockTo));
     std::vector<glm::vec3> path;
@@ -380,11 +379,14 @@ class CombedBuilder {
     const auto& loose = hair_.loose;
     const int seed = 3 * k + (side == Side::kLeft ? 900 : 800);
     const float share = static_cast<float>(k) / static_cast<float>(std::max(style_.loose - 1, 1));
-    const auto differs = [seed](PaintStream stream, float by) { return by * NoiseAt(seed, stream); };
+    const auto differs = [seed](PaintStream stream, float by) {
+      return by * NoiseAt(seed, stream);
+    };
     const float begins = loose.begins.At(share) + differs(PaintStream::kLockPlace, loose.uneven);
     const float temple = loose.temple.At(share) + differs(PaintStream::kLockFrom, loose.uneven);
     const float ends = loose.ends.At(share) + differs(PaintStream::kLockTo, 3 * loose.uneven);
-    const std::array<glm::vec3, 4> bend{  // azimuth, elevation, distance from the skin
+    const std::array<glm::vec3, 4> bend{
+        // azimuth, elevation, distance from the skin
         glm::vec3(begins, look_.HairlineElevation(begins) + loose.root.x, loose.root.y),
         glm::vec3(loose.over.x, look_.HairlineElevation(loose.over.x) + loose.over.y, loose.over.z),
         glm::vec3(temple, loose.past.x, loose.past.y),

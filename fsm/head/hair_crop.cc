@@ -82,10 +82,10 @@ class CropShape {
     const auto& thickness = hair_.thickness;
     const float top = thickness.top_over_y.Ramp(d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
-    // The edge itself lies on the skin, or its hairs would be dots beside the neck's outline.
+    // The edge goes under the skin behind, or its hairs would be dots beside the neck's outline.
     return thickness.edge +
-           thickness.behind * thickness.behind_over_z.Ramp(d.z) *
-               thickness.behind_over_up.Ramp(up) +
+           thickness.behind.At(thickness.behind_over_up.Ramp(up)) *
+               thickness.behind_over_z.Ramp(d.z) +
            body * thickness.over_up.Ramp(up);
   }
 

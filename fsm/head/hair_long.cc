@@ -145,9 +145,12 @@ class LongShape {
   float EndY(float around, Side side) const {
     const auto& ends = hair_.ends;
     const float sign = SignOf(side);
-    return glm::mix(style_.front_y, style_.back_y, std::sqrt(ends.over_around.Ramp(around))) +
-           // What would end on top of the shoulder ends above it.
-           ends.shoulder * Bell(around - ends.shoulder_around, ends.shoulder_width) +
+    const float end =
+        glm::mix(style_.front_y, style_.back_y, std::sqrt(ends.over_around.Ramp(around)));
+    // What would lie on top of the shoulder ends above it.
+    const float lowest = glm::mix(std::min(style_.front_y, style_.back_y), ends.shoulder,
+                                  Bell(around - ends.shoulder_around, ends.shoulder_width));
+    return std::max(end, lowest) +
            ends.uneven * (std::sin(17 * around + sign) +
                           ends.shorter_waves * std::sin(43 * around + 2 * sign));
   }
