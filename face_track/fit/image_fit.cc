@@ -113,9 +113,9 @@ void Move(Pose& pose, const Eigen::Matrix<float, kPose, 1>& by) {
 
 }  // namespace
 
-ImageFit::ImageFit(const SeenFace& face, const Lens& lens, const Points& rest, const FaceLook& look,
-                   const Doing& doing)
-    : face_(face), lens_(lens), learned_(doing.pose.turn) {
+ImageFit::ImageFit(const SeenFace& face, const Lens& lens, const Points& rest,
+                   const std::vector<View>& views)
+    : face_(face), lens_(lens), learned_(views.front().pose.turn) {
   const float top = rest[facefit::point::kForehead].y, low = rest[facefit::point::kNoseBottom].y;
   const float wide = rest[facefit::point::kCheekLeft].x;
   const glm::vec3 root = rest[facefit::point::kNasion];
@@ -150,12 +150,16 @@ ImageFit::ImageFit(const SeenFace& face, const Lens& lens, const Points& rest, c
       sample.off = place.at - between;
       sample.hair = top - y < kHair;
       sample.normal = place.normal;
-      const glm::vec3 q = doing.pose(place.at);
-      if (glm::dot(doing.pose.turn * sample.normal, -glm::normalize(q)) < kMostAside) continue;
+      const Pose& pose = views.front().pose;
+      const glm::vec3 q = pose(place.at);
+      if (glm::dot(pose.turn * sample.normal, -glm::normalize(q)) < kMostAside) continue;
       for (std::size_t level = 0; level < FaceLook::kLevels; ++level) {
-        sample.look[level] = look.At(level, lens_.Project(q)).x;
+        for (const View& view : views) {
+          sample.look[level] += view.look.At(level, lens_.Project(view.pose(place.at))).x;
+        }
+        sample.look[level] /= static_cast<float>(views.size());
       }
-      sample.ray = glm::transpose(doing.pose.turn) * -q;
+      sample.ray = glm::transpose(pose.turn) * -q;
       sample.ray /= sample.ray.z;
       const glm::vec3 d = place.at - root;
       constexpr float kFar = 70;  // mm

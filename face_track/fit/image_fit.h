@@ -16,8 +16,14 @@ namespace facetrack {
 /// numbers that say so are found with the poses, from picture to picture.
 class ImageFit {
  public:
-  ImageFit(const SeenFace& face, const Lens& lens, const Points& rest, const FaceLook& look,
-           const Doing& doing);
+  struct View {
+    const FaceLook& look;
+    const Pose& pose;
+  };
+  /// Of `views` the first tells what is seen of the face; how that looks is the mean of all.
+  /// REQUIRES: one or more.
+  ImageFit(const SeenFace& face, const Lens& lens, const Points& rest,
+           const std::vector<View>& views);
 
   struct Found {
     Pose pose;

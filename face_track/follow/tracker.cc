@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
 #include "face_fit/find/network/face_finder.h"
@@ -40,25 +41,34 @@ Tracker::Tracker(facefit::FaceNetworks& networks, facefit::AttentionNetwork& att
     : networks_(networks), attention_(attention), face_(face), settings_(settings) {}
 
 bool Tracker::IsCut(const fsm::Image& picture) {
-  constexpr int kCells = 24, kStep = 3;
+  // Each cell is a mean of many pixels, so that noise does not add up to a cut.
+  constexpr int kCells = 24, kStep = 16;
   constexpr float kCut = 10;  // of 255, between pictures that follow each other
+  // What moves within a picture leaves the cells much the same, in other places: so far apart are
+  // the sorted ones (the earth mover's distance of their histograms).
+  constexpr float kOtherCells = 5;
+  constexpr int kSide = kCells * kStep;
   std::vector<float> thumbnail(kCells * kCells, 0);
-  for (int y = 0; y < kCells * kStep; ++y) {
-    for (int x = 0; x < kCells * kStep; ++x) {
-      const int px = x * picture.width / (kCells * kStep),
-                py = y * picture.height / (kCells * kStep);
-      const auto at = 4 * (static_cast<std::size_t>(py) * static_cast<std::size_t>(picture.width) +
-                           static_cast<std::size_t>(px));
-      const float sum =
-          static_cast<float>(picture.rgba[at] + picture.rgba[at + 1] + picture.rgba[at + 2]);
+  for (int y = 0; y < kSide; ++y) {
+    const auto row = static_cast<std::size_t>(y * picture.height / kSide) *
+                     static_cast<std::size_t>(picture.width);
+    for (int x = 0; x < kSide; ++x) {
+      const auto at = 4 * (row + static_cast<std::size_t>(x * picture.width / kSide));
+      const int sum = picture.rgba[at] + picture.rgba[at + 1] + picture.rgba[at + 2];
       thumbnail[static_cast<std::size_t>(y / kStep * kCells + x / kStep)] +=
-          sum / (3 * kStep * kStep);
+          static_cast<float>(sum) / (3 * kStep * kStep);
     }
   }
-  float off = 0;
-  for (std::size_t i = 0; i < thumbnail_.size(); ++i) off += std::abs(thumbnail[i] - thumbnail_[i]);
-  thumbnail_ = std::move(thumbnail);
-  return off > kCut * kCells * kCells;
+  const auto apart = [&thumbnail](const std::vector<float>& before) {
+    float sum = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) sum += std::abs(thumbnail[i] - before[i]);
+    return sum / (kCells * kCells);
+  };
+  const float off = apart(thumbnail_);
+  auto before = std::exchange(thumbnail_, thumbnail);
+  std::ranges::sort(thumbnail);
+  std::ranges::sort(before);
+  return off > kCut && apart(before) > kOtherCells;
 }
 
 std::optional<Tracker::Candidate> Tracker::LookAt(const fsm::Image& picture,
@@ -152,11 +162,15 @@ Doing Tracker::Follow(const Sighting& seen, const FaceLook& look, const Doing& s
   return fit_->Solve(person_->rest, seen.places, doing, FrameFit::What::kDoses);
 }
 
-std::vector<FaceLine> Tracker::Look(const fsm::Image& picture, double ms) {
-  if (!fit_) fit_.emplace(face_, Lens::Of(picture.width, picture.height, settings_.field_degrees));
+std::vector<FaceLine> Tracker::Look(const fsm::Image& filmed, double ms) {
+  if (!fit_) fit_.emplace(face_, Lens::Of(filmed.width, filmed.height, settings_.field_degrees));
   std::vector<FaceLine> lines;
-  const bool cut = IsCut(picture);
+  const bool cut = IsCut(filmed);
   if (cut) lines = Finish();
+  const bool follows = last_ && !cut;
+  if (!follows) noise_filter_.Forget();
+  const fsm::Image& picture =
+      follows ? noise_filter_.Filter(filmed, CropOf(fit_->lens(), last_->pose)) : filmed;
   auto seen = See(picture, ms, cut);
   const bool over = !seen || waiting_.size() >= kMostWaiting ||
                     (!waiting_.empty() && ms - waiting_.front().ms >= settings_.settle_ms);
@@ -196,11 +210,15 @@ std::vector<FaceLine> Tracker::Finish() {
   for (const Waiting& w : waiting_) {
     doings.push_back(fit_->Solve(person_->rest, w.seen.places, w.doing, FrameFit::What::kPose));
   }
-  // The template is the picture that is most like what was taken for the rest.
-  const auto usual = std::ranges::min_element(doings, {}, &Doing::miss) - doings.begin();
-  image_fit_.emplace(face_, fit_->lens(), person_->rest,
-                     waiting_[static_cast<std::size_t>(usual)].look,
-                     doings[static_cast<std::size_t>(usual)]);
+  // The template is the picture that is most like what was taken for the rest; where there is
+  // noise, the mean of the half of them that are.
+  std::vector<std::size_t> usual(doings.size());
+  std::iota(usual.begin(), usual.end(), 0U);
+  std::ranges::stable_sort(usual, {}, [&](std::size_t i) { return doings[i].miss; });
+  usual.resize(noise_filter_.IsNoisy() ? (usual.size() + 1) / 2 : 1);
+  std::vector<ImageFit::View> views;
+  for (const std::size_t i : usual) views.push_back({waiting_[i].look, doings[i].pose});
+  image_fit_.emplace(face_, fit_->lens(), person_->rest, views);
   for (const Waiting& w : waiting_) {
     last_ =
         Follow(w.seen, w.look,

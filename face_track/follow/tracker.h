@@ -9,6 +9,7 @@
 #include "face_track/fit/image_fit.h"
 #include "face_track/fit/person.h"
 #include "face_track/follow/face_line.h"
+#include "face_track/follow/noise_filter.h"
 #include "face_track/follow/smooth.h"
 
 namespace facetrack {
@@ -77,6 +78,7 @@ class Tracker {
   int unlike_ = 0;             // pictures in which a face is followed that is not the person's
   std::deque<Waiting> waiting_;
   std::vector<float> thumbnail_;
+  NoiseFilter noise_filter_;
   std::vector<Smooth> filters_;
   double last_ms_ = 0;
 };

@@ -30,8 +30,8 @@ struct Misses {
 
 void JudgeTurns(const FrameFit& fit, const Person& met, Sitter& sitter,
                 const Sitter::Sight& at_rest, const Doing& rest) {
-  ImageFit image_fit(fit.face(), fit.lens(), met.rest,
-                     FaceLook(at_rest.picture, CropOf(fit.lens(), rest.pose)), rest);
+  const FaceLook shown(at_rest.picture, CropOf(fit.lens(), rest.pose));
+  ImageFit image_fit(fit.face(), fit.lens(), met.rest, {{shown, rest.pose}});
   const glm::mat3 still = glm::transpose(rest.pose.turn) * at_rest.pose.turn;
   Misses by_points, by_picture;
   for (const fsm::Angles& turn : kTurns) {
