@@ -31,7 +31,8 @@ fsm::Image Pattern(int moved, bool dark) {
 fsm::Image Noisy(fsm::Image image, float deviation, std::mt19937& chance) {
   std::normal_distribution<float> noise(0, deviation);
   for (std::size_t i = 0; i < image.rgba.size(); ++i) {
-    if (i % 4 != 3) image.rgba[i] = facefit::Byte(static_cast<float>(image.rgba[i]) + noise(chance));
+    if (i % 4 != 3)
+      image.rgba[i] = facefit::Byte(static_cast<float>(image.rgba[i]) + noise(chance));
   }
   return image;
 }
@@ -41,7 +42,8 @@ float Off(const fsm::Image& a, const fsm::Image& b, int reach) {
   float squares = 0;
   for (int y = 100 - reach; y < 100 + reach; ++y) {
     for (int x = 100 - reach; x < 100 + reach; ++x) {
-      squares += std::pow(facefit::Rgb(a, a.Index(x, y)).g - facefit::Rgb(b, b.Index(x, y)).g, 2.0F);
+      squares +=
+          std::pow(facefit::Rgb(a, a.Index(x, y)).g - facefit::Rgb(b, b.Index(x, y)).g, 2.0F);
     }
   }
   return std::sqrt(squares) / (2 * static_cast<float>(reach));
@@ -85,7 +87,8 @@ TEST(NoiseFilterTest, AFaceAtThePicturesEdgeAndAnotherSizeAreNoMatter) {
   for (const float x : {0.0F, -300.0F, 199.0F, 100.0F}) {
     for (int k = 0; k < 3; ++k) {
       const fsm::Image picture = Noisy(Pattern(0, false), 20, chance);
-      EXPECT_TRUE(filter.Filter(picture, {.centre = {x, 190}, .size = 170, .angle_rad = 0.4F}).IsWhole());
+      EXPECT_TRUE(
+          filter.Filter(picture, {.centre = {x, 190}, .size = 170, .angle_rad = 0.4F}).IsWhole());
     }
     const fsm::Image small = fsm::FilledImage(20, 30);
     EXPECT_EQ(&filter.Filter(small, kCrop), &small);
