@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Films heads that turn, blink and move as told, follows them with face_track, and prints how far off it is.
 
-usage: scripts/track_truth.py [--spoil noise|blur|dark|squeezed] [HEAD]...     baucis, from which the table learned nothing
+usage: scripts/track_truth.py [--spoil noise|blur|dark|squeezed] [--careful] [HEAD]...     baucis, from which the table learned nothing
 
 Needs the networks (scripts/face_networks.sh), ffmpeg and the built programs; ends with 77 without networks. Angles and
 doses are medians of the last 400 ms of each second they are held; lids are counted in each picture that is not within
@@ -33,7 +33,7 @@ def median(values):
     return sorted(values)[len(values) // 2]
 
 
-def follow(head, folder, spoil):
+def follow(head, folder, spoil, careful):
     film = os.path.join(folder, "film.mp4")
     lines = ["set Camera = 1 0 25", "set Record.fps = 25", f"set Record = {film}", "set Wait = 1500"]
     for turn in TURNS:
@@ -50,7 +50,7 @@ def follow(head, folder, spoil):
         spoiled = os.path.join(folder, "spoiled.mp4")
         subprocess.run(["ffmpeg", "-v", "error", "-i", film, *SPOILS[spoil], spoiled], check=True)
         film = spoiled
-    done = subprocess.run([f"{BIN}/face_track", film, "--field", "25", "--quiet"], text=True, capture_output=True)
+    done = subprocess.run([f"{BIN}/face_track", film, "--field", "25", "--quiet"] + ["--careful"] * careful, text=True, capture_output=True)
     if done.returncode != 0:
         print(done.stderr.strip(), file=sys.stderr)
         sys.exit(77 if "face_networks.sh" in done.stderr else 1)
@@ -94,12 +94,13 @@ def report(head, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spoil", choices=sorted(SPOILS))
+    parser.add_argument("--careful", action="store_true")
     parser.add_argument("heads", nargs="*", default=["baucis"])
     wanted = parser.parse_args()
     errors = []
     for head in wanted.heads:
         with tempfile.TemporaryDirectory() as folder:
-            errors += report(head, follow(head, folder, wanted.spoil))
+            errors += report(head, follow(head, folder, wanted.spoil, wanted.careful))
     print(f"angles off: rms {(sum(e * e for e in errors) / len(errors)) ** 0.5:.2f}, worst {max(map(abs, errors)):.2f} degrees")
 
 

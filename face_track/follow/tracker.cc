@@ -86,8 +86,33 @@ std::optional<Tracker::Candidate> Tracker::LookAt(const fsm::Image& picture,
     if (!moved || look + 1 == kLooks) break;
     found = attention_.Find(picture, crop);
   }
+  if (settings_.careful) {
+    found = LookAround(picture, found);
+    doing = fit_->Solve(rest, PlacesOf(found), doing, what);
+  }
   if (doing.miss > kNoFace) return std::nullopt;
   return Candidate{std::move(found), std::move(doing)};
+}
+
+facefit::AttentiveFace Tracker::LookAround(const fsm::Image& picture,
+                                           const facefit::AttentiveFace& found) {
+  constexpr float kTurned = 0.03F, kScaled = 0.02F;  // radians; parts of the crop's size
+  constexpr glm::vec2 kShifted(0.012F, -0.006F);     // in the same
+  facefit::AttentiveFace mean = found;
+  for (const float side : {1.0F, -1.0F}) {
+    facefit::NetworkCrop crop = found.face.crop;
+    crop.centre += side * crop.size * kShifted;
+    crop.size *= 1 + side * kScaled;
+    crop.angle_rad += side * kTurned;
+    const facefit::AttentiveFace other = attention_.Find(picture, crop);
+    const auto add = [](auto& to, const auto& from, const auto& before) {
+      for (std::size_t i = 0; i < to.size(); ++i) to[i] += (from[i] - before[i]) / 3.0F;
+    };
+    add(mean.face.points, other.face.points, found.face.points);
+    add(mean.iris.right, other.iris.right, found.iris.right);
+    add(mean.iris.left, other.iris.left, found.iris.left);
+  }
+  return mean;
 }
 
 std::optional<Tracker::Candidate> Tracker::Find(const fsm::Image& picture, bool cut) {

@@ -26,6 +26,7 @@ class Tracker {
     double settle_ms = 1000;   ///< taken for a person's rest
     float smooth = 1;          ///< 0 = not at all; 2 = twice as much
     std::size_t which = 1;     ///< of several faces: 1 = the largest
+    bool careful = false;      ///< the network looks thrice at each picture
   };
   static constexpr std::size_t kMostWaiting = 120;
 
@@ -56,6 +57,9 @@ class Tracker {
   /// where that is no face.
   std::optional<Candidate> LookAt(const fsm::Image& picture, facefit::AttentiveFace found,
                                   const Doing* start, const Points& rest, FrameFit::What what);
+  /// The mean of what the network sees in a face's crop and in two that are shifted, scaled and
+  /// turned a little to either side.
+  facefit::AttentiveFace LookAround(const fsm::Image& picture, const facefit::AttentiveFace& found);
   /// The face to follow from now on, where none was: the person that was met, else another one.
   /// After a cut it has to look like that person.
   std::optional<Candidate> Find(const fsm::Image& picture, bool cut);
