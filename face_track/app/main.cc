@@ -45,8 +45,7 @@ void AddOptions(CLI::App& app, FilmTrack& wanted) {
   app.add_option("--which", wanted.tracker.which, "Which of several faces: 1 = the largest")
       ->check(CLI::Range(1, 10));
   app.add_flag("--careful", wanted.tracker.careful,
-               "The network looks thrice at each picture: nearer where a film is dark or squeezed, "
-               "in twice the time");
+               "The network looks thrice at each picture: nearer on the mean, in twice the time");
   app.add_option("--rate", wanted.rate, "Pictures a second of a folder (25)")
       ->check(CLI::Range(0.1, 1000.0));
   app.add_option("--networks", wanted.networks,
