@@ -34,6 +34,7 @@ TEST(MouthNetTest, WhatIsWrittenIsReadAndWrittenTheSame) {
 }
 
 TEST(MouthNetTest, DamageIsToldWithItsLine) {
+  const std::string whole = FormatMouthNet(MadeNet());
   EXPECT_EQ(ErrorOf(""), "x.net:0: the end found, 'features' expected");
   EXPECT_EQ(ErrorOf("features smell\n"), "x.net:1: 'smell' found, mel, phones or cepstra expected");
   EXPECT_NE(ErrorOf("# a comment\nwrong mel\n").find("x.net:2: 'wrong' found, 'features' expected"),
@@ -47,9 +48,15 @@ TEST(MouthNetTest, DamageIsToldWithItsLine) {
             std::string::npos);
   EXPECT_NE(ErrorOf(Changed("-2 0 1", "-2 0 65")).find("'65' found, a number from -64 to 64"),
             std::string::npos);
-  EXPECT_NE(
-      ErrorOf(Changed("-2 0 1", "-2 0")).find("x.net:6: 80 values after 'row' found, 54 expected"),
-      std::string::npos);
+  EXPECT_NE(ErrorOf(Changed("-2 0 1", "-2 0")).find("x.net:6: 78 weights found, 52 expected"),
+            std::string::npos);
+  const auto with_weights = [&](const char* four_signs) {
+    std::string text = whole;
+    return text.replace(text.rfind(' ') + 1, 4, four_signs);
+  };
+  EXPECT_NE(ErrorOf(with_weights("a!bc")).find("weights that are no base64 found"),
+            std::string::npos);
+  EXPECT_NE(ErrorOf(with_weights("gICA")).find("a weight of -128 found"), std::string::npos);
   EXPECT_NE(
       ErrorOf(Changed("layer 7 5", "layer 8 5")).find("8 inputs found after a layer of 7 outputs"),
       std::string::npos);
@@ -58,7 +65,6 @@ TEST(MouthNetTest, DamageIsToldWithItsLine) {
   EXPECT_NE(ErrorOf(Changed("scales 1.5", "scales 0")).find("a scale below 0.000001 found"),
             std::string::npos);
   EXPECT_NE(ErrorOf(Changed("scales 1.5", "scales nan")).find("'nan' found"), std::string::npos);
-  const std::string whole = FormatMouthNet(MadeNet());
   EXPECT_NE(ErrorOf(whole.substr(0, whole.rfind("row"))).find("the end found, 'row' expected"),
             std::string::npos);
   EXPECT_NE(ErrorOf(whole + "row 1 2 3\n").find("'row' found, 'layer' expected"),

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "vdm/net/word_lines.h"
+#include "vm_protocol/runtime/base64.h"
 
 namespace vdm {
 namespace {
@@ -132,17 +134,22 @@ class Reader {
   }
 
   vm::Result<void> Row(TimeDelayLayer& layer, Eigen::Index row, std::size_t columns) {
-    const auto words = lines_.Line("row", columns + 2);
+    const auto words = lines_.Line("row", 3);
     if (!words) return std::unexpected(words.error());
     const auto bias = lines_.Value((*words)[1], -1000.0F, 1000.0F);
     if (!bias) return std::unexpected(bias.error());
     const auto scale = lines_.Value((*words)[2], 0.0F, 1000.0F);
     if (!scale) return std::unexpected(scale.error());
+    const auto weights = vm::DecodeBase64((*words)[3]);
+    if (!weights) return Wrong("weights that are no base64 found");
+    if (weights->size() != columns) {
+      return Wrong(fmt::format("{} weights found, {} expected", weights->size(), columns));
+    }
     layer.biases[row] = *bias;
     for (std::size_t i = 0; i < columns; ++i) {
-      const auto weight = lines_.Value<int>((*words)[i + 3], -kMaxInteger, kMaxInteger);
-      if (!weight) return std::unexpected(weight.error());
-      layer.weights(row, static_cast<Eigen::Index>(i)) = *scale * static_cast<float>(*weight);
+      const int weight = static_cast<std::int8_t>((*weights)[i]);
+      if (weight < -kMaxInteger) return Wrong("a weight of -128 found, -127 to 127 expected");
+      layer.weights(row, static_cast<Eigen::Index>(i)) = *scale * static_cast<float>(weight);
     }
     return {};
   }
@@ -171,12 +178,13 @@ std::string FormatMouthNet(const MouthNet& net) {
       const std::string scale_text = fmt::format("{:.6g}", WithoutDust(most / kMaxInteger));
       float scale = 0;  // as it will be read
       std::from_chars(scale_text.data(), scale_text.data() + scale_text.size(), scale);
-      text += fmt::format("row {:.6g} {}", WithoutDust(layer.biases[row]), scale_text);
+      std::string weights;
       for (const float weight : layer.weights.row(row)) {
         const int integer = scale > 0 ? static_cast<int>(std::lround(weight / scale)) : 0;
-        text += fmt::format(" {}", std::clamp(integer, -kMaxInteger, kMaxInteger));
+        weights += static_cast<char>(std::clamp(integer, -kMaxInteger, kMaxInteger));
       }
-      text += '\n';
+      text += fmt::format("row {:.6g} {} {}\n", WithoutDust(layer.biases[row]), scale_text,
+                          vm::EncodeBase64(weights));
     }
   }
   return text;

@@ -36,7 +36,9 @@ struct MouthNet {
 ///   means NUMBER x 18              mouth parameters and tongue
 ///   scales NUMBER x 18
 ///   layer INPUTS OUTPUTS relu|linear OFFSET...
-///   row BIAS SCALE INTEGER...      OUTPUTS of them; a weight is SCALE * INTEGER, |INTEGER| <= 127
+///   row BIAS SCALE WEIGHTS         OUTPUTS of them; WEIGHTS is the base64 of a signed byte for
+///   each
+///                                  weight, which is SCALE * byte, -127 <= byte <= 127
 ///
 /// Limits: 4 MiB, 8 layers, 16 offsets within +-64, 1024 numbers in a vector, 64 sounds. Errors:
 /// kBadValue "NAME:LINE: ..." saying what was found and expected.
