@@ -38,7 +38,7 @@ Eigen::MatrixXf SomeInput(Eigen::Index count) {
 double Loss(const MouthNet& net, BackPropagation& propagation, const Eigen::MatrixXf& input,
             const MouthTruth& truth) {
   Eigen::MatrixXf slope;
-  return LossOf(net, propagation.Forward(input), truth, slope).total();
+  return LossOf(net, propagation.Forward(input), WantedOf(net, truth), slope).total();
 }
 
 /// Compares each slope that `propagation` tells with the difference that a small step makes.
@@ -47,7 +47,7 @@ void ExpectSlopesOfTheLoss(MouthNet& net, BackPropagation& propagation) {
   const MouthTruth truth = SomeTruth(9);
   NetGradient gradient(net.net);
   Eigen::MatrixXf slope;
-  LossOf(net, propagation.Forward(input), truth, slope);
+  LossOf(net, propagation.Forward(input), WantedOf(net, truth), slope);
   propagation.Backward(slope, gradient);
   constexpr float kStep = 2e-3F;
   std::size_t checked = 0, near = 0;
@@ -118,7 +118,7 @@ TEST(AdamTest, StepsGoDownTheLoss) {
   for (int i = 0; i < 200; ++i) {
     NetGradient gradient(net.net);
     BackPropagation propagation(net.net);
-    LossOf(net, propagation.Forward(input), truth, slope);
+    LossOf(net, propagation.Forward(input), WantedOf(net, truth), slope);
     propagation.Backward(slope, gradient);
     adam.Step(net.net, gradient, 0.01);
   }

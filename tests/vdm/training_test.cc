@@ -88,6 +88,36 @@ TEST(TrainingTest, ACourseThatIsKeptAndResumedGivesTheSameNetwork) {
   std::filesystem::remove(path);
 }
 
+TEST(TrainingTest, ItBeginsWithANetworkAndHeedsItsTeachers) {
+  const auto takes = Takes();
+  TrainingPlan plan = Plan();
+  plan.epochs = 20;
+  plan.rate = 0.01;
+  const MouthNet start = StartingNet(plan, takes, Tables());
+  plan.from = start;
+  EXPECT_EQ(FormatMouthNet(Training(plan, takes, Tables()).net()), FormatMouthNet(start));
+  // Says that lips never close, and of the corners' height, by its scale, nothing.
+  MouthNet teacher = start;
+  auto& last = teacher.net.layers.back();
+  last.weights.setZero();
+  last.biases.setZero();
+  last.biases[static_cast<Eigen::Index>(start.closure_row())] = -20;
+  last.biases[9] = 1000;
+  teacher.scales[9] *= 5;
+  const auto closed = [&](const TrainingPlan& wanted) {
+    Training training(wanted, takes, Tables());
+    while (!training.done()) training.Epoch(kQuiet);
+    const Lesson lesson = PlainLesson(takes[0], wanted.features, Tables());
+    const Eigen::MatrixXf outputs =
+        WantedOf(training.net(), training.net().net.Outputs(lesson.features));
+    EXPECT_LT(outputs.row(9).cwiseAbs().maxCoeff(), 50);
+    return outputs.row(static_cast<Eigen::Index>(start.closure_row())).mean();
+  };
+  const float alone = closed(plan);
+  plan.teachers = {teacher};
+  EXPECT_LT(closed(plan), 0.6F * alone);
+}
+
 TEST(LessonTest, MaskingHidesBandsMomentsAndPhonesButNoLevels) {
   constexpr Eigen::Index kBands = 24, kFrames = 400;
   const auto size = static_cast<Eigen::Index>(FeatureSize(FeatureKind::kPhones));

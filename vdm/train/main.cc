@@ -27,6 +27,8 @@ constexpr const char* kSynthetic = "SYNTHETIC";
 struct Options {
   std::string out, work = "vdm_training", features = "mel";
   std::string people;  // a list of recordings
+  std::string from;    // a network's file
+  std::vector<std::string> teachers;
   std::vector<std::string> without;
   vdm::TrainingPlan plan;
   std::string head, emotion;  // a list of recordings, or kSynthetic; empty: not asked for
@@ -165,6 +167,10 @@ int TrainTriphones(const Options& options) {
   return 0;
 }
 
+vdm::MouthNet ReadNet(const std::string& path) {
+  return OrThrow(vdm::ParseMouthNet(path, OrThrow(vm::ReadTextFile(path, std::size_t{8} << 20))));
+}
+
 int Train(const Options& options) {
   const fsm::MotionTables tables = OrThrow(fsm::MotionTables::Load());
   const auto [takes, others] = VoicesOf(options);
@@ -176,7 +182,10 @@ int Train(const Options& options) {
   };
   const auto known = some(takes, 20), unknown = some(others, 5);
 
-  vdm::Training training(options.plan, takes, tables);
+  vdm::TrainingPlan plan = options.plan;
+  for (const std::string& path : options.teachers) plan.teachers.push_back(ReadNet(path));
+  if (!options.from.empty()) plan.from = ReadNet(options.from);
+  vdm::Training training(plan, takes, tables);
   const std::string course = options.work + "/course";
   if (std::filesystem::exists(course)) {
     OrThrow(training.Load(course));
@@ -223,6 +232,12 @@ int main(int argc, char** argv) {
          "A list of recordings of people to learn from as well, a line each: FILE, LANGUAGE "
          "and TEXT between tabs; needs pocketsphinx-en-us")
       ->check(CLI::ExistingFile);
+  app.add_option("--teachers", options.teachers,
+                 "Networks of the same kind: the mean of their outputs is learned beside the truth")
+      ->delimiter(',')
+      ->check(CLI::ExistingFile);
+  app.add_option("--from", options.from, "A network to begin with, in place of one by chance")
+      ->check(CLI::ExistingFile);
   app.add_option("--without", options.without,
                  "Voices to leave out, by what their names begin with (vdm/tables/voices.txt)")
       ->delimiter(',');
@@ -232,6 +247,8 @@ int main(int argc, char** argv) {
   app.add_option("--width", options.plan.width, "Units of each hidden layer (not cepstra)")
       ->check(CLI::Range(4, 512))
       ->capture_default_str();
+  app.add_flag("--long-past", options.plan.long_past,
+               "It hears 80 ms more before an instant (not cepstra)");
   app.add_option("--disturbance", options.plan.disturbance,
                  "By how much, twice, hidden units are larger or smaller by chance (not cepstra)")
       ->check(CLI::Range(0.0, 0.5))

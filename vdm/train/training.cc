@@ -1,5 +1,6 @@
 #include "vdm/train/training.h"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,7 +19,8 @@ namespace {
 constexpr std::size_t kBatch = 4;  // takes in a step
 constexpr double kNoSpeech = 0.1;  // lessons without speech, beside so many takes
 constexpr long kWarmUp = 150;      // steps in which the rate rises
-constexpr std::string_view kHead = "galatea training 1\n";
+constexpr float kTaught = 0.7F;    // share of what the teachers say, the rest is the truth
+constexpr std::string_view kHead = "galatea training 2\n";
 
 TimeDelayLayer MakeLayer(std::size_t inputs, std::vector<int> offsets, std::size_t outputs,
                          bool rectified, Dice& dice) {
@@ -77,7 +79,9 @@ MouthNet StartingNet(const TrainingPlan& plan, const std::vector<Take>& takes,
   }
   layers.push_back(MakeLayer(inputs, {-3, -2, -1, 0, 1, 2}, w, true, dice));
   layers.push_back(MakeLayer(w, {-4, -2, 0, 2}, w, true, dice));
-  layers.push_back(MakeLayer(w, {-8, -4, 0}, w, true, dice));
+  std::vector<int> past = {-8, -4, 0};
+  if (plan.long_past) past.insert(past.begin(), -16);
+  layers.push_back(MakeLayer(w, past, w, true, dice));
   layers.push_back(MakeLayer(w, {-2, -1, 0, 1}, w, true, dice));
   layers.push_back(MakeLayer(w, {0}, outputs, false, dice));
   return net;
@@ -97,7 +101,7 @@ Training::Training(const TrainingPlan& plan, const std::vector<Take>& takes,
     : plan_(plan),
       takes_(takes),
       tables_(tables),
-      net_(StartingNet(plan, takes, tables)),
+      net_(plan.from ? *plan.from : StartingNet(plan, takes, tables)),
       adam_(net_.net) {}
 
 double Training::RateAt(long step, long steps) const {
@@ -106,6 +110,36 @@ double Training::RateAt(long step, long steps) const {
       static_cast<double>(step - kWarmUp) / static_cast<double>(std::max(steps - kWarmUp, 1L));
   return plan_.rate *
          (0.005 + 0.995 * 0.5 * (1 + std::cos(std::numbers::pi * std::min(done, 1.0))));
+}
+
+Eigen::MatrixXf Training::Wanted(const Lesson& lesson) const {
+  const Eigen::MatrixXf truth = WantedOf(net_, lesson.truth);
+  if (plan_.teachers.empty()) return truth;
+  const auto shape = static_cast<Eigen::Index>(kShapeNumbers);
+  Eigen::MatrixXf told = Eigen::MatrixXf::Zero(truth.rows(), truth.cols());
+  std::array<float, kShapeNumbers> tellers{};
+  for (const MouthNet& teacher : plan_.teachers) {
+    const Eigen::MatrixXf outputs = teacher.net.Outputs(lesson.features);
+    told.bottomRows(told.rows() - shape) += outputs.bottomRows(told.rows() - shape);
+    for (std::size_t i = 0; i < kShapeNumbers; ++i) {
+      // A teacher that learned from other shapes of the mouth is not asked about a number that has
+      // another range now.
+      const float scale = teacher.scales[i] / net_.scales[i];
+      if (scale < 0.5F || scale > 2) continue;
+      const auto row = static_cast<Eigen::Index>(i);
+      told.row(row).array() +=
+          scale * outputs.row(row).array() + (teacher.means[i] - net_.means[i]) / net_.scales[i];
+      ++tellers[i];
+    }
+  }
+  told.bottomRows(told.rows() - shape) /= static_cast<float>(plan_.teachers.size());
+  told = WantedOf(net_, std::move(told));
+  for (std::size_t i = 0; i < kShapeNumbers; ++i) {
+    auto row = told.row(static_cast<Eigen::Index>(i));
+    if (tellers[i] > 0) row /= tellers[i];
+    if (tellers[i] == 0) row = truth.row(static_cast<Eigen::Index>(i));
+  }
+  return kTaught * told + (1 - kTaught) * truth;
 }
 
 void Training::Learn(const std::vector<std::size_t>& items, Dice dice, Lane& lane) const {
@@ -118,13 +152,14 @@ void Training::Learn(const std::vector<std::size_t>& items, Dice dice, Lane& lan
     Lesson lesson = item < takes_.size()
                         ? DistortedLesson(takes_[item], plan_.features, tables_, own)
                         : SilentLesson(plan_.features, own);
+    // Teachers hear what is hidden from the learner.
+    const Eigen::MatrixXf wanted = Wanted(lesson);
     if (plan_.features != FeatureKind::kCepstra) {
       Dice chance = own.For(7);
       if (chance.Chance(plan_.masking)) Mask(lesson.features, plan_.features, chance);
       lane.propagation.Disturb(plan_.disturbance, chance);
     }
-    const MouthLoss loss =
-        LossOf(net_, lane.propagation.Forward(lesson.features), lesson.truth, slope);
+    const MouthLoss loss = LossOf(net_, lane.propagation.Forward(lesson.features), wanted, slope);
     lane.propagation.Backward(slope, lane.gradient);
     lane.loss.shape += loss.shape;
     lane.loss.closure += loss.closure;
@@ -187,8 +222,9 @@ vm::Result<void> Training::Save(const std::string& path) const {
   const std::string partial = path + ".part";
   std::ofstream file(partial, std::ios::binary);
   file << kHead << FeatureName(plan_.features) << ' ' << plan_.width << ' ' << plan_.epochs << ' '
-       << plan_.seed << ' ' << plan_.disturbance << ' ' << plan_.masking << ' ' << takes_.size()
-       << ' ' << epoch_ << ' ' << adam_.steps << '\n';
+       << plan_.seed << ' ' << plan_.disturbance << ' ' << plan_.masking << ' '
+       << plan_.teachers.size() << ' ' << takes_.size() << ' ' << epoch_ << ' ' << adam_.steps
+       << '\n';
   for (std::size_t i = 0; i < net_.net.layers.size(); ++i) {
     Write(file, net_.net.layers[i].weights);
     Write(file, net_.net.layers[i].biases);
@@ -208,15 +244,17 @@ vm::Result<void> Training::Load(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
   std::string head(kHead.size(), ' '), features;
-  std::size_t width = 0, epochs = 0, takes = 0, epoch = 0;
+  std::size_t width = 0, epochs = 0, teachers = 0, takes = 0, epoch = 0;
   std::uint64_t seed = 0;
   double disturbance = 0, masking = 0;
   long steps = 0;
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  file >> features >> width >> epochs >> seed >> disturbance >> masking >> takes >> epoch >> steps;
+  file >> features >> width >> epochs >> seed >> disturbance >> masking >> teachers >> takes >>
+      epoch >> steps;
   if (!file || head != kHead || features != FeatureName(plan_.features) || width != plan_.width ||
       epochs != plan_.epochs || seed != plan_.seed || disturbance != plan_.disturbance ||
-      masking != plan_.masking || takes != takes_.size() || file.get() != '\n') {
+      masking != plan_.masking || teachers != plan_.teachers.size() || takes != takes_.size() ||
+      file.get() != '\n') {
     return vm::Fail(vm::Errc::kBadValue,
                     path + ": is no course of this plan; remove it to start anew");
   }

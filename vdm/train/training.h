@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "vdm/train/adam.h"
 #include "vdm/train/corpus.h"
 #include "vdm/train/dice.h"
+#include "vdm/train/lesson.h"
 #include "vdm/train/mouth_loss.h"
 #include "vdm/train/score.h"
 
@@ -16,10 +18,15 @@ namespace vdm {
 struct TrainingPlan {
   FeatureKind features = FeatureKind::kMel;
   std::size_t width = 128;  ///< of the hidden layers (not kCepstra)
+  bool long_past = false;   ///< hears 80 ms more before an instant (not kCepstra)
   std::size_t epochs = 24;
   std::uint64_t seed = 1;
   double disturbance = 0.15;  ///< of hidden units, see BackPropagation::Disturb (not kCepstra)
   double masking = 0.4;       ///< share of the lessons that are masked, see Mask (not kCepstra)
+  /// Networks of the same features and sounds: the mean of their outputs is learned beside the
+  /// truth (Hinton and others, Distilling the knowledge in a neural network, 2015).
+  std::vector<MouthNet> teachers{};
+  std::optional<MouthNet> from{};  ///< begins with it, not with a StartingNet
   double rate = 2e-3;  ///< the highest step; it rises at the start and falls to almost nothing
 };
 
@@ -56,6 +63,8 @@ class Training {
 
  private:
   struct Lane;
+  /// The truth of a lesson, and what the teachers say of it.
+  Eigen::MatrixXf Wanted(const Lesson& lesson) const;
   void Learn(const std::vector<std::size_t>& items, Dice dice, Lane& lane) const;
   double RateAt(long step, long steps) const;
 
