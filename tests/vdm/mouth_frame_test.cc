@@ -45,5 +45,75 @@ TEST(MouthFrameTest, TheJawDoesNotGoAboveItsRestAndTheTongueStaysInItsRange) {
   EXPECT_LE(frame.tongue, 1);
 }
 
+/// Feeds a mouth frames of 10 ms in which one sound is heard and the lips are closed or not.
+class MouthMotionTest : public testing::Test {
+ protected:
+  static MouthNet Net() {
+    MouthNet net;
+    net.sounds = {"sil", "pbm", "td", "aa"};
+    net.scales.fill(1);
+    net.means[2] = 2;
+    net.means[11] = 4;
+    return net;
+  }
+  MouthFrame Hear(std::size_t sound, float closure) {
+    Eigen::VectorXf outputs =
+        Eigen::VectorXf::Zero(static_cast<Eigen::Index>(net_.first_sound_row() + 4));
+    outputs[static_cast<Eigen::Index>(net_.closure_row())] = closure;
+    outputs[static_cast<Eigen::Index>(net_.first_sound_row() + sound)] = 8;
+    return motion_.Next(outputs);
+  }
+  /// For how many ms the lips stay sealed while a sound without a closure is heard.
+  int SealedMs(std::size_t sound) {
+    for (int ms = 0; ms < 1000; ms += 10) {
+      if (Hear(sound, -8).seal < 1) return ms;
+    }
+    return 1000;
+  }
+  const MouthNet net_ = Net();
+  MouthMotion motion_{net_, 10};
+};
+
+TEST_F(MouthMotionTest, AClosureHeardForOneFrameLastsWithTheLipsPressed) {
+  const float open = Hear(2, -8).mouth[2];
+  const MouthFrame closed = Hear(1, 2);
+  EXPECT_EQ(closed.seal, 1);
+  EXPECT_LT(closed.mouth[2], open - 1);  // the upper lip comes down
+  EXPECT_EQ(SealedMs(2), 30);
+}
+
+TEST_F(MouthMotionTest, AVowelEndsAClosure) {
+  Hear(1, 2);
+  EXPECT_EQ(SealedMs(3), 10);
+}
+
+TEST_F(MouthMotionTest, AClosureThatGoesOnBeingLikelyLastsThroughout) {
+  for (int frame = 0; frame < 30; ++frame) EXPECT_EQ(Hear(1, 1).seal, 1);
+  EXPECT_EQ(SealedMs(2), 0);
+}
+
+TEST_F(MouthMotionTest, TheMouthWaitsInAShortSilenceAndGoesHomeInALongOne) {
+  const MouthFrame open = Hear(3, -8);
+  for (int frame = 0; frame < 10; ++frame) {
+    const MouthFrame stop = Hear(0, 8);
+    EXPECT_EQ(stop.seal, open.seal);
+    EXPECT_EQ(stop.mouth, open.mouth);
+  }
+  MouthFrame last;
+  for (int frame = 0; frame < 30; ++frame) last = Hear(0, 8);
+  EXPECT_GT(last.seal, 0.98F);
+  EXPECT_LT(last.mouth[11], 0.1F);
+}
+
+TEST_F(MouthMotionTest, ASoundThatBeginsWithSilenceBeginsWithAClosedMouth) {
+  EXPECT_EQ(Hear(0, 8).seal, 1);
+}
+
+TEST(MouthFrameTest, RoundedLipsStayWithinWhatShapesOfTheMouthReach) {
+  Eigen::VectorXf outputs = Outputs(-8, -8);
+  outputs[8] = -50;
+  EXPECT_EQ(FrameOf(MadeNet(), outputs).mouth[8], -9);
+}
+
 }  // namespace
 }  // namespace vdm

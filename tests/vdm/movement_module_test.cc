@@ -137,7 +137,7 @@ TEST_F(MovementTest, ARecordingMovesTheFaceAndEndsAtRest) {
   EXPECT_GT(widest, 3);                     // degrees of the jaw: an "a"
   EXPECT_EQ(frames.back().numbers[18], 1);  // sealed
   EXPECT_GT(frames.front().at, 0ms);
-  EXPECT_LT(frames.back().at, 2s + 100ms + 500ms);
+  EXPECT_LT(frames.back().at, 2s + 100ms + 700ms);
   EXPECT_EQ(Count("rep Input = NONE"), 1U);
   EXPECT_GE(Count("rep Mouth.stat = MOVING"), 1U);
 }

@@ -3,7 +3,10 @@
 namespace vdm {
 
 MouthTracker::MouthTracker(const MouthNet& net, float warp)
-    : net_(net), features_(MakeFeatures(net.features, warp)), stream_(net.net) {}
+    : net_(net),
+      features_(MakeFeatures(net.features, warp)),
+      stream_(net.net),
+      motion_(net, static_cast<double>(features_->hop_samples()) / 16) {}
 
 std::size_t MouthTracker::ahead_samples() const {
   return features_->ahead_samples() + net_.net.ahead() * features_->hop_samples();
@@ -18,7 +21,7 @@ std::vector<MouthTracker::Moment> MouthTracker::Add(std::span<const std::int16_t
     const Eigen::VectorXf& outputs =
         stream_.Add(Eigen::Map<const Eigen::VectorXf>(&vectors_[at], size));
     if (outputs.size() == 0) continue;
-    moments.push_back({moments_++ * features_->hop_samples(), FrameOf(net_, outputs)});
+    moments.push_back({moments_++ * features_->hop_samples(), motion_.Next(outputs)});
   }
   return moments;
 }

@@ -32,6 +32,7 @@ class MouthTracker {
   const MouthNet& net_;
   std::unique_ptr<SoundFeatures> features_;
   NetStream stream_;
+  MouthMotion motion_;
   std::uint64_t moments_ = 0;
   std::vector<float> vectors_;
 };
