@@ -16,6 +16,7 @@
 
 #include "fsm/base/table_reader.h"
 #include "fsm/head/hair_springs.h"
+#include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
 #include "fsm/rig/head.h"
 #include "fsm/rig/simulation.h"
@@ -201,7 +202,7 @@ TEST(HairSpringsTest, LongHairSwingsAndNothingElseDoes) {
 }
 
 TEST(HairSpringsTest, OfTiedHairOnlyTheTailAndLooseStrandsSwing) {
-  const auto head = MakeHead("zhenzhen");
+  const auto head = MakeHead(ReadOwnIdentity("i.txt", "base zhenzhen\nhair tied 4 8 58 -125 6\n"));
   const RigData& rig = head->rig().data();
   ASSERT_FALSE(rig.spring_rig.weights.empty());
   for (const auto& [vertex, spring, weight] : rig.spring_rig.weights) {
