@@ -70,7 +70,7 @@ struct FaceSearcher {
 /// close-up pixels for each whole pixel. REQUIRES: search.face.
 float CropToFace(fsm::Image given, FaceSearch& search) {
   assert(search.face);
-  if (search.orientation != 1) given = Turned(given, search.orientation);
+  if (search.orientation != 1) given = OrientedByExif(given, search.orientation);
   CloseUp close_up = CloseUpOf(search.photo, given, *search.face);
   search.photo = std::move(close_up.image);
   search.face = std::move(close_up.face);

@@ -12,12 +12,12 @@
 #include "face_fit/bake/mirroring.h"
 #include "face_fit/bake/openings.h"
 #include "face_fit/bake/sheet.h"
+#include "face_fit/bake/side_photo_blend.h"
 #include "face_fit/bake/skin_colours.h"
 #include "face_fit/bake/skin_map.h"
 #include "face_fit/bake/skin_texels.h"
 #include "face_fit/bake/smile_folds.h"
 #include "face_fit/bake/smile_shade.h"
-#include "face_fit/bake/turned_view_blend.h"
 #include "face_fit/fit/eye_fit.h"
 #include "face_fit/fit/pixel_warp.h"
 #include "face_fit/image/filters.h"
@@ -45,7 +45,7 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
     const auto& [p, z_mm, facing] = *projections[i];
     // Near the head's outline a texel shows more of what lies beside the head than of its skin.
     const float least =
-        glm::mix(look.texel.face_from_cos, look.texel.side_from_cos, texels[i]->side_weight);
+        glm::mix(look.texel.face_from_cos, look.texel.side_from_cos, texels[i]->flank_weight);
     if (!IsInside(colours, p) || facing < least) continue;
     const float skin = openings.SkinShare(p);
     map.outside_openings[i] = skin;
@@ -104,7 +104,7 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
                      look.smile.shade.evened_share * SmileOf(fitted), map.image);
   GrainFromCheeks(map.grain_lost, map.image);
   const auto on_sides = Mask::From(kMapSize, kMapSize, [&](int x, int y) {
-    return texels(x, y) ? texels(x, y)->side_weight : 0;
+    return texels(x, y) ? texels(x, y)->flank_weight : 0;
   });
   AddGrain(map.coverage, on_sides, MmToTexels(look.grain.coarsest_on_skin_mm, kMapSize), map.image);
   if (lips_apart) {
@@ -145,17 +145,17 @@ void SetSheet(Sheet sheet, fsm::PhotoHead& head) {
 
 BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
                    const FigureCutout& figure, const CompletedFigure& whole,
-                   std::span<const TurnedView> turned_views, bool glasses) {
+                   std::span<const PosedSidePhoto> side_photos, bool glasses) {
   const FittedHead& fitted = fit.head;
-  fsm::PhotoHead head = HeadOf(fitted);
+  fsm::PhotoHead head = PhotoHeadOf(fitted);
   head.glasses = glasses;
   head.seen_from = fitted.pose.TowardsCamera();
   const SkinTexels texels = FindSkinTexels(*fitted.base);
   TexelProjections front = ProjectTexels(fitted, texels, fitted.pose);
   HideSelfOccluded(fitted, fitted.pose, front);
   SkinMap map = PaintPhoto(face, fitted, texels, front, figure.colours);
-  for (const TurnedView& view : turned_views) {
-    BlendTurnedView(fitted, view, texels, front, map);
+  for (const PosedSidePhoto& view : side_photos) {
+    BlendSidePhoto(fitted, view, texels, front, map);
     head.also_seen.push_back(view.pose.TowardsCamera());
   }
   const float coverage = MeanCoverage(texels, map.coverage);
@@ -167,7 +167,7 @@ BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& 
   SetSheet(MakeSheet(fitted, whole.pose, whole.figure), head);
   fsm::Image atlas = PackAtlas(map.image, BehindFace(fitted, whole.pose, whole.figure),
                                whole.figure.opacity, fitted.pose.PixelsPerMm());
-  // HeadOf has the eyes as in the photo's expression.
+  // PhotoHeadOf has the eyes as in the photo's expression.
   const fsm::Sided<fsm::EyeTransform> eyes = EyesAtRest(fitted);
   head.eyes = eyes;
   head.eye_pictures = PaintEyes(face, fit, eyes, photo, atlas);

@@ -13,10 +13,10 @@ struct BakedHead {
 };
 
 /// Bakes a photo onto a fitted head. `figure`: the figure in `photo`; `whole`: CompleteFigure of
-/// it; `turned_views`: photos of the person from the side, may be empty; `glasses`: whether the
+/// it; `side_photos`: photos of the person from the side, may be empty; `glasses`: whether the
 /// person wears them. Pure; thread: any.
 BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
                    const FigureCutout& figure, const CompletedFigure& whole,
-                   std::span<const TurnedView> turned_views, bool glasses);
+                   std::span<const PosedSidePhoto> side_photos, bool glasses);
 
 }  // namespace facefit

@@ -186,7 +186,7 @@ glm::vec3 SkinColourBelowEye(const FoundFace& face, const fsm::Image& photo, fsm
 
 /// Returns the mirror image of a square, multiplied by a gain.
 fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
-  fsm::Image out = Turned(square, 2);
+  fsm::Image out = OrientedByExif(square, 2);
   for (std::size_t i = 0; i < out.rgba.size() / 4; ++i) SetRgb(out, i, Rgb(out, i) * gain);
   return out;
 }

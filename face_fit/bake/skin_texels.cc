@@ -27,13 +27,13 @@ class LipLines {
     // A larger distance near its ends makes the line thinner.
     constexpr float kThinMm = 7, kThinner = 0.2F;
     if (!Spans(lip_seam_, p)) return SkinTexel::kNotNear;
-    const float gap_mm = std::abs(p.y - HeightAt<glm::vec3>(lip_seam_, p.x));
+    const float gap_mm = std::abs(p.y - LineYAt<glm::vec3>(lip_seam_, p.x));
     const float to_end_mm = std::min(p.x - lip_seam_.front().x, lip_seam_.back().x - p.x);
     return gap_mm + kThinner * std::max(kThinMm - to_end_mm, 0.0F);
   }
   float Within(glm::vec3 p) const {
     if (!Spans(upper_, p)) return -SkinTexel::kNotNear;
-    return std::min(HeightAt<glm::vec3>(upper_, p.x) - p.y, p.y - HeightAt<glm::vec3>(lower_, p.x));
+    return std::min(LineYAt<glm::vec3>(upper_, p.x) - p.y, p.y - LineYAt<glm::vec3>(lower_, p.x));
   }
 
  private:
@@ -51,19 +51,19 @@ class LipLines {
 };
 
 /// Returns the normals of the skin's vertices, not normalised, weighted by area.
-std::vector<glm::vec3> SkinNormals(const fsm::HeadSurface& topology,
+std::vector<glm::vec3> SkinNormals(const fsm::HeadSurface& surface,
                                    const std::vector<glm::vec3>& position) {
   std::vector<glm::vec3> normal(position.size(), glm::vec3(0));
-  ForEachSkinAndLipTriangle(topology, [&](const MeshTriangle& triangle) {
+  ForEachSkinAndLipTriangle(surface, [&](const MeshTriangle& triangle) {
     for (const std::uint32_t v : triangle.corner) normal[v] += triangle.Normal(position);
   });
   return normal;
 }
 
 /// Returns a triangle of the skin in texels of the map; nothing if it crosses the uv seam.
-std::optional<Triangle2> OnMap(const fsm::HeadSurface& topology, const MeshTriangle& triangle) {
+std::optional<Triangle2> OnMap(const fsm::HeadSurface& surface, const MeshTriangle& triangle) {
   const auto texel = [&](std::uint32_t v) {
-    return glm::vec2(topology.uv[v].x, 1 - topology.uv[v].y) * static_cast<float>(kMapSize) - 0.5F;
+    return glm::vec2(surface.uv[v].x, 1 - surface.uv[v].y) * static_cast<float>(kMapSize) - 0.5F;
   };
   constexpr float kAcrossUvSeam =
       kMapSize / 4.0F;  // wider than any triangle that does not cross it
@@ -79,14 +79,14 @@ std::optional<Triangle2> OnMap(const fsm::HeadSurface& topology, const MeshTrian
 SkinTexels FindSkinTexels(const ObservedHead& base) {
   const auto& head_side = PhotoLook().head_side;
   constexpr float kSlack = 0.02F;
-  const auto& topology = base.surface();
+  const auto& surface = base.surface();
   const float chin_y_mm = base.AtRest(point::kChin).y;
   const LipLines lips(base);
   SkinTexels out(kMapSize, kMapSize);
   // Of the triangles that share a texel the one farthest from the head's vertical axis counts.
   FloatImage outward_mm2(kMapSize, kMapSize, -1);
-  ForEachSkinAndLipTriangle(topology, [&](const MeshTriangle& triangle) {
-    const auto on_map = OnMap(topology, triangle);
+  ForEachSkinAndLipTriangle(surface, [&](const MeshTriangle& triangle) {
+    const auto on_map = OnMap(surface, triangle);
     if (!on_map) return;
     Rasterize(*on_map, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {
       const MeshPoint on_mesh{triangle.corner, weights};
@@ -99,8 +99,8 @@ SkinTexels FindSkinTexels(const ObservedHead& base) {
                    .y_mm = rest.y,
                    .off_lip_seam_mm = lips.OffLipSeam(rest),
                    .within_lips_mm = lips.Within(rest),
-                   .side_weight = std::max(head_side.across_mm.Ramp(std::abs(rest.x)),
-                                           head_side.above_chin_mm.Ramp(rest.y - chin_y_mm))};
+                   .flank_weight = std::max(head_side.across_mm.Ramp(std::abs(rest.x)),
+                                            head_side.above_chin_mm.Ramp(rest.y - chin_y_mm))};
     });
   });
   return out;

@@ -30,7 +30,7 @@ struct SkinTexel {
   float y_mm = 0;                    ///< height
   float off_lip_seam_mm = kNotNear;  ///< distance from the lip seam
   float within_lips_mm = -kNotNear;  ///< distance inside the border of the lips, negative outside
-  float side_weight = 0;  ///< 1 on the sides of the head and below the chin, 0 on the face
+  float flank_weight = 0;  ///< 1 on the sides of the head and below the chin, 0 on the face
 };
 /// kMapSize texels to a side; nothing where the map shows no skin.
 using SkinTexels = Raster<std::optional<SkinTexel>>;

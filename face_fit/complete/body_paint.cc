@@ -13,14 +13,14 @@ namespace {
 
 /// Returns the mean colour of the cloth along the edges; where too little is seen, the table's.
 glm::vec3 ClothColour(const Canvas& canvas, const PhotoEdges& edges, const fsm::FaceLight& light,
-                      const PerSideEdge<BustAttachment>& attachments) {
+                      const PerPhotoEdge<BustAttachment>& attachments) {
   glm::vec4 sum(0);
   const auto add = [&sum](const EdgeSample& sample) {
     const bool cloth = sample.kind == EdgeKind::kCloth || sample.kind == EdgeKind::kTip;
     if (cloth) sum += glm::vec4(sample.colour, 1);
   };
   for (int x = 0; x < edges.width(); ++x) add(edges.bottom(x));
-  for (const SideEdge side : kSideEdges) {
+  for (const PhotoEdge side : kSideEdges) {
     if (!attachments[side].shoulder_slope) continue;
     for (int y = static_cast<int>(attachments[side].row); y < edges.height(); ++y) {
       add(edges.side(side, y));
@@ -53,10 +53,10 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const fsm::F
   for (int x = 0; x < edges.width(); ++x) {
     AddDifference(edges.bottom(x), {static_cast<float>(x) + 0.5F, size.y}, below_);
   }
-  for (const SideEdge side : kSideEdges) {
+  for (const PhotoEdge side : kSideEdges) {
     const BustAttachment& attachment = shape.attachments()[side];
     for (int y = 0; y < edges.height(); ++y) {
-      const glm::vec2 pixel(side == SideEdge::kLeft ? 0 : size.x, static_cast<float>(y) + 0.5F);
+      const glm::vec2 pixel(side == PhotoEdge::kLeft ? 0 : size.x, static_cast<float>(y) + 0.5F);
       const bool body = attachment.shoulder_slope && pixel.y > attachment.row;
       const EdgeSample& sample = edges.side(side, y);
       AddDifference(body ? sample : EdgeSample{}, pixel, beside_[side]);

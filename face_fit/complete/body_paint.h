@@ -45,7 +45,7 @@ class BodyPaint {
   glm::vec3 cloth_colour_;  ///< 0..255
   Neckline neckline_;
   Differences below_;
-  PerSideEdge<Differences> beside_;
+  PerPhotoEdge<Differences> beside_;
 };
 
 }  // namespace facefit

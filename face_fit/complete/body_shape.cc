@@ -15,9 +15,9 @@ bool IsBody(const EdgeSample& sample) {
 }
 
 /// Returns the fall of the outline over the outermost sixteenth of the photo above a row.
-float OutlineSlope(const Canvas& canvas, const Mask& opacity, SideEdge side, float row) {
+float OutlineSlope(const Canvas& canvas, const Mask& opacity, PhotoEdge side, float row) {
   const int inward = std::max(canvas.photo_size.x / 16, 1);
-  const int x = side == SideEdge::kLeft ? inward : canvas.photo_size.x - 1 - inward;
+  const int x = side == PhotoEdge::kLeft ? inward : canvas.photo_size.x - 1 - inward;
   int y = static_cast<int>(row);
   while (y > 0 && opacity(x, y - 1) > 0.5F) --y;
   return PhotoLook().shoulder.fall_per_px.Clamp((row - static_cast<float>(y)) /
@@ -26,7 +26,7 @@ float OutlineSlope(const Canvas& canvas, const Mask& opacity, SideEdge side, flo
 
 /// `axis`: as BodyShape's.
 BustAttachment AttachmentOf(const Canvas& canvas, const PhotoEdges& edges, const Mask& opacity,
-                            const Bust& bust, float axis, SideEdge side) {
+                            const Bust& bust, float axis, PhotoEdge side) {
   const float end = static_cast<float>(canvas.photo_size.y);
   BustAttachment attachment{.row = end, .shoulder_slope = {}};
   // Follow the photo's edge upward while it cuts the body.
@@ -35,7 +35,7 @@ BustAttachment AttachmentOf(const Canvas& canvas, const PhotoEdges& edges, const
     --attachment.row;
   }
   float half_width =
-      side == SideEdge::kLeft ? axis : static_cast<float>(canvas.photo_size.x) - axis;
+      side == PhotoEdge::kLeft ? axis : static_cast<float>(canvas.photo_size.x) - axis;
   bool hidden = false;
   if (attachment.row < end) {
     attachment.shoulder_slope = OutlineSlope(canvas, opacity, side, attachment.row);
@@ -43,7 +43,7 @@ BustAttachment AttachmentOf(const Canvas& canvas, const PhotoEdges& edges, const
     // Otherwise follow the lower edge outward while it cuts the body; hair may hide the rest of it.
     int x = std::clamp(static_cast<int>(axis), 0, edges.width() - 1);
     const auto on_edge = [&] { return x >= 0 && x < edges.width(); };
-    while (on_edge() && IsBody(edges.bottom(x))) x += side == SideEdge::kLeft ? -1 : 1;
+    while (on_edge() && IsBody(edges.bottom(x))) x += side == PhotoEdge::kLeft ? -1 : 1;
     hidden = on_edge() && edges.bottom(x).kind == EdgeKind::kHair;
     half_width = std::abs(static_cast<float>(x) + 0.5F - axis);
   }
@@ -67,7 +67,7 @@ BodyShape::BodyShape(const Canvas& canvas, const PhotoEdges& edges, const Mask& 
     : canvas_(canvas),
       bust_(std::move(bust)),
       axis_(bust_.axis - static_cast<float>(canvas.photo_origin.x)) {
-  for (const SideEdge side : kSideEdges) {
+  for (const PhotoEdge side : kSideEdges) {
     attachments_[side] = AttachmentOf(canvas, edges, opacity, bust_, axis_, side);
   }
 }

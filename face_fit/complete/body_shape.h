@@ -36,7 +36,7 @@ class BodyShape {
   /// this.
   BodyShape(const Canvas& canvas, const PhotoEdges& edges, const Mask& opacity, Bust bust);
 
-  const PerSideEdge<BustAttachment>& attachments() const { return attachments_; }
+  const PerPhotoEdge<BustAttachment>& attachments() const { return attachments_; }
   /// Returns whether the left or right edge of the photo cuts a shoulder.
   bool CutsShoulder() const {
     return attachments_.left.shoulder_slope || attachments_.right.shoulder_slope;
@@ -51,7 +51,7 @@ class BodyShape {
   const Canvas& canvas_;
   Bust bust_;
   float axis_;
-  PerSideEdge<BustAttachment> attachments_;
+  PerPhotoEdge<BustAttachment> attachments_;
 };
 
 }  // namespace facefit

@@ -20,14 +20,14 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   const float chin_y_mm = base.AtRest(point::kChin).y;
   const glm::vec3 lower(0, chin_y_mm - fitted.PositionOf(point::kChin).y, 0);
   const float highest = chin_y_mm + PhotoLook().bust.above_chin_mm;
-  const fsm::HeadSurface& topology = base.surface();
+  const fsm::HeadSurface& mesh = base.surface();
   std::vector<glm::vec3> positions = base.rest().position;
   for (glm::vec3& p : positions) p -= lower;
   VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, pose.ToScreen(positions));
   const auto body = [](fsm::Material m) {
     return m == fsm::Material::kCloth || m == fsm::Material::kSkin;
   };
-  ForEachTriangle(topology, body, [&](const MeshTriangle& triangle) {
+  ForEachTriangle(mesh, body, [&](const MeshTriangle& triangle) {
     const bool above = std::ranges::any_of(
         triangle.corner, [&](std::uint32_t v) { return base.rest().position[v].y > highest; });
     if (!above) surface.DrawFront(triangle);
@@ -42,7 +42,7 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
     if (normal.z <= 0) return;  // interpolated normals at the outline may point away
     bust.opacity[i] = 1;
     bust.cloth[i] = sample->triangle.material == fsm::Material::kCloth ? 1.0F : 0.0F;
-    bust.ambient_occlusion[i] = on_base.On(topology.openness);
+    bust.ambient_occlusion[i] = on_base.On(mesh.openness);
     bust.normal[i] = normal;
   });
   return bust;
@@ -50,9 +50,9 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
 
 }  // namespace
 
-float Bust::HalfWidth(SideEdge side, float row) const {
+float Bust::HalfWidth(PhotoEdge side, float row) const {
   const int y = std::clamp(static_cast<int>(row), 0, opacity.height - 1);
-  const int step = side == SideEdge::kLeft ? -1 : 1;
+  const int step = side == PhotoEdge::kLeft ? -1 : 1;
   int x = std::clamp(static_cast<int>(axis), 0, opacity.width - 1);
   while (x >= 0 && x < opacity.width && opacity(x, y) > 0.5F) x += step;
   return std::max(std::abs(static_cast<float>(x) + 0.5F - axis), 1.0F);

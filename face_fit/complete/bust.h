@@ -21,7 +21,7 @@ struct Bust {
 
   /// Returns the half width in a row: the distance from `axis` to the outline on the left or on the
   /// right, pixels, at least 1.
-  float HalfWidth(SideEdge side, float row) const;
+  float HalfWidth(PhotoEdge side, float row) const;
 };
 
 /// Draws the bust of the fitted head on a canvas of that size, to whose pixels `pose` projects.

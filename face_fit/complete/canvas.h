@@ -20,7 +20,7 @@ struct Paint {
 /// beyond that edge. A pixel beyond a corner has two of them above 0.
 struct DistanceOutside {
   float below, above, beside;
-  std::optional<SideEdge> side;  ///< the edge that `beside` counts from, if it is above 0
+  std::optional<PhotoEdge> side;  ///< the edge that `beside` counts from, if it is above 0
   bool Any() const { return below > 0 || above > 0 || side; }
 };
 
@@ -54,7 +54,7 @@ struct Canvas {
     const glm::vec2 end(photo_size);
     DistanceOutside outside{std::max(p.y - end.y, 0.0F), std::max(-p.y, 0.0F),
                             std::max({-p.x, p.x - end.x, 0.0F}), std::nullopt};
-    if (outside.beside > 0) outside.side = p.x < 0 ? SideEdge::kLeft : SideEdge::kRight;
+    if (outside.beside > 0) outside.side = p.x < 0 ? PhotoEdge::kLeft : PhotoEdge::kRight;
     return outside;
   }
 };

@@ -44,15 +44,15 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const fsm::I
       colours_(colours),
       top_(LongestRun(edges.width(),
                       [&](int x) { return edges.top(x).kind != EdgeKind::kNothing; })),
-      sides_{.right = SpanOf(SideEdge::kRight), .left = SpanOf(SideEdge::kLeft)} {
+      sides_{.right = SpanOf(PhotoEdge::kRight), .left = SpanOf(PhotoEdge::kLeft)} {
   const auto& look = PhotoLook().hair;
   const float most = look.bulge_most_mm * canvas.pixels_per_mm;
-  for (const SideEdge side : kSideEdges) {
+  for (const PhotoEdge side : kSideEdges) {
     bulge_px_[side] = std::min(look.bulge_by_length * sides_[side].Length(), most);
     // Where the upper edge cuts hair up to a corner, the dome extends over the bulge beside it.
     if (bulge_px_[side] <= 0 || sides_[side].from > 1 || top_.Length() <= 0) continue;
-    if (side == SideEdge::kLeft && top_.from < 1) top_.from -= bulge_px_[side];
-    if (side == SideEdge::kRight && top_.to > static_cast<float>(canvas.photo_size.x) - 1) {
+    if (side == PhotoEdge::kLeft && top_.from < 1) top_.from -= bulge_px_[side];
+    if (side == PhotoEdge::kRight && top_.to > static_cast<float>(canvas.photo_size.x) - 1) {
       top_.to += bulge_px_[side];
     }
   }
@@ -78,7 +78,7 @@ HairPaint::EdgeSpan HairPaint::LongestRun(int count, auto cuts_head) {
   return longest;
 }
 
-HairPaint::EdgeSpan HairPaint::SpanOf(SideEdge side) const {
+HairPaint::EdgeSpan HairPaint::SpanOf(PhotoEdge side) const {
   // Above the chin everything cut at a side is hair or a hat, whatever its colour; below the chin
   // only what has the hair's colour.
   const EdgeSpan longest = LongestRun(edges_.height(), [&](int y) {
@@ -94,7 +94,7 @@ float HairPaint::DomePx(float x) const {
   return dome_px_ * Arc((x - 0.5F * (top_.from + top_.to)) / (0.5F * top_.Length()));
 }
 
-float HairPaint::BulgePx(SideEdge side, float y) const {
+float HairPaint::BulgePx(PhotoEdge side, float y) const {
   const EdgeSpan& span = sides_[side];
   const float bulge_px = bulge_px_[side];
   if (bulge_px <= 0) return 0;
@@ -119,8 +119,8 @@ glm::vec3 HairPaint::Colour(glm::vec2 pixel) const {
   if (above) {
     mirrored.y = std::clamp(inward_px, 0.5F, size.y - 0.5F);
   } else {
-    mirrored.x = std::clamp(*outside.side == SideEdge::kLeft ? inward_px : size.x - inward_px, 0.5F,
-                            size.x - 0.5F);
+    mirrored.x = std::clamp(*outside.side == PhotoEdge::kLeft ? inward_px : size.x - inward_px,
+                            0.5F, size.x - 0.5F);
   }
   const float enough = fsm::SmoothStep(0.0F, PhotoLook().hair.enough_mm * canvas_.pixels_per_mm,
                                        static_cast<float>(reach_px));

@@ -29,7 +29,7 @@ class HairPaint {
 
  private:
   float DomePx(float x) const;
-  float BulgePx(SideEdge side, float y) const;
+  float BulgePx(PhotoEdge side, float y) const;
   glm::vec3 Colour(glm::vec2 pixel) const;
   Paint HairBelow(glm::vec2 pixel, float below_px) const;
 
@@ -40,16 +40,16 @@ class HairPaint {
   };
   /// Returns the longest run of samples of an edge for which `cuts_head(i)` is true.
   static EdgeSpan LongestRun(int count, auto cuts_head);
-  EdgeSpan SpanOf(SideEdge side) const;
+  EdgeSpan SpanOf(PhotoEdge side) const;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;
   const fsm::Image& colours_;
   EdgeSpan top_;
-  PerSideEdge<EdgeSpan> sides_;
-  float dome_px_ = 0;            ///< height of the dome above the photo, pixels
-  PerSideEdge<float> bulge_px_;  ///< width of the bulge beside the photo, pixels
-  EdgeMeans below_;              ///< the hair's colours along the lower edge
+  PerPhotoEdge<EdgeSpan> sides_;
+  float dome_px_ = 0;             ///< height of the dome above the photo, pixels
+  PerPhotoEdge<float> bulge_px_;  ///< width of the bulge beside the photo, pixels
+  EdgeMeans below_;               ///< the hair's colours along the lower edge
   bool bearded_ = false, cut_ = false;
 };
 

@@ -186,21 +186,23 @@ std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& ch
   return bottom;
 }
 
-std::vector<EdgeSampleWithHair> ReadTop(const EdgeReader& reader, glm::ivec2 size, int band) {
-  std::vector<EdgeSampleWithHair> top;
+std::vector<EdgeSample> ReadTop(const EdgeReader& reader, glm::ivec2 size, int band) {
+  std::vector<EdgeSample> top;
   for (int x = 0; x < size.x; ++x) {
-    top.push_back({reader.Sample({x, 0}, {1, band}), reader.HairReach({x, 0}, {0, 1}, size.y)});
+    top.push_back(reader.Sample({x, 0}, {1, band}));
+    top.back().hair_reach_px = reader.HairReach({x, 0}, {0, 1}, size.y);
   }
   return top;
 }
 
-std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, SideEdge side, float chin_row,
-                                         glm::ivec2 size, int band) {
-  const bool left = side == SideEdge::kLeft;
-  std::vector<EdgeSampleWithHair> samples;
+std::vector<EdgeSample> ReadSide(const EdgeReader& reader, PhotoEdge side, float chin_row,
+                                 glm::ivec2 size, int band) {
+  const bool left = side == PhotoEdge::kLeft;
+  std::vector<EdgeSample> samples;
   for (int y = 0; y < size.y; ++y) {
-    samples.push_back({reader.Sample({left ? 0 : size.x - band, y}, {band, 1}),
-                       reader.HairReach({left ? 0 : size.x - 1, y}, {left ? 1 : -1, 0}, size.x)});
+    samples.push_back(reader.Sample({left ? 0 : size.x - band, y}, {band, 1}));
+    samples.back().hair_reach_px =
+        reader.HairReach({left ? 0 : size.x - 1, y}, {left ? 1 : -1, 0}, size.x);
   }
   // Hair hangs from the head without a gap: dark pixels below a gap are cloth.
   bool gap = false;
@@ -215,10 +217,10 @@ std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, SideEdge side
 /// Returns the mean colour of the figure at both sides above the chin. That is hair or hat even
 /// where it has the skin's brightness and hue, as grey and blond hair do. Returns darkened skin if
 /// the figure does not touch the sides.
-glm::vec3 HairBeside(const PerSideEdge<std::vector<EdgeSampleWithHair>>& sides, float chin_row,
+glm::vec3 HairBeside(const PerPhotoEdge<std::vector<EdgeSample>>& sides, float chin_row,
                      glm::vec3 skin_colour) {
   glm::vec4 sum(0);
-  for (const SideEdge side : kSideEdges) {
+  for (const PhotoEdge side : kSideEdges) {
     const auto& samples = sides[side];
     for (std::size_t y = 0; y < samples.size() && static_cast<float>(y) < chin_row; ++y) {
       if (samples[y].kind != EdgeKind::kNothing) sum += glm::vec4(samples[y].colour, 1);
@@ -230,7 +232,7 @@ glm::vec3 HairBeside(const PerSideEdge<std::vector<EdgeSampleWithHair>>& sides, 
 }  // namespace
 
 bool PhotoEdges::TopCutsWholeEdge() const {
-  return std::ranges::find(top_, EdgeKind::kNothing, &EdgeSampleWithHair::kind) == top_.end();
+  return std::ranges::find(top_, EdgeKind::kNothing, &EdgeSample::kind) == top_.end();
 }
 
 PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure,
@@ -246,7 +248,7 @@ PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure,
       glm::min(glm::ivec2(MmToPixels(PhotoLook().edge.band_mm, chin.pixels_per_mm)), size);
   bottom_ = ReadBottom(reader, chin, size, band.y);
   top_ = ReadTop(reader, size, band.y);
-  for (const SideEdge side : kSideEdges) {
+  for (const PhotoEdge side : kSideEdges) {
     sides_[side] = ReadSide(reader, side, chin.pixel.y, size, band.x);
   }
   hair_ = classifier.hair() ? *classifier.hair() : HairBeside(sides_, chin.pixel.y, skin_colour);

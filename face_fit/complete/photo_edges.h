@@ -17,10 +17,9 @@ struct EdgeSample {
   glm::vec3 colour{0};  ///< 0..255
   float opacity = 0;    ///< of the figure, 0..1
   EdgeKind kind = EdgeKind::kNothing;
-};
-/// A sample of an edge beyond which hair is continued as a mirror image.
-struct EdgeSampleWithHair : EdgeSample {
-  int hair_reach_px = 0;  ///< length of the run inward from the edge without skin or background
+  /// Top and sides, beyond which hair is continued as a mirror image: length of the run inward from
+  /// the edge without skin or background.
+  int hair_reach_px = 0;
 };
 
 /// Classifies the figure along the edges of a photo: lower and upper edge column by column, left
@@ -33,8 +32,8 @@ class PhotoEdges {
   int width() const { return static_cast<int>(bottom_.size()); }
   int height() const { return static_cast<int>(sides_.left.size()); }
   const EdgeSample& bottom(int x) const { return bottom_[static_cast<std::size_t>(x)]; }
-  const EdgeSampleWithHair& top(int x) const { return top_[static_cast<std::size_t>(x)]; }
-  const EdgeSampleWithHair& side(SideEdge side, int y) const {
+  const EdgeSample& top(int x) const { return top_[static_cast<std::size_t>(x)]; }
+  const EdgeSample& side(PhotoEdge side, int y) const {
     return sides_[side][static_cast<std::size_t>(y)];
   }
   /// Returns whether the figure touches the upper edge from corner to corner.
@@ -44,8 +43,8 @@ class PhotoEdges {
 
  private:
   std::vector<EdgeSample> bottom_;
-  std::vector<EdgeSampleWithHair> top_;
-  PerSideEdge<std::vector<EdgeSampleWithHair>> sides_;
+  std::vector<EdgeSample> top_;
+  PerPhotoEdge<std::vector<EdgeSample>> sides_;
   glm::vec3 hair_;
 };
 

@@ -29,7 +29,7 @@ PerPoint<float> DepthBias(const ObservedHead& base) {
 std::vector<PixelConstraint> PointConstraints(const FitProblem& problem, const CameraPose& pose,
                                               std::span<const glm::vec3> base_in_expression) {
   constexpr float kTrustDepth = 0.3F, kMaxDepthGapMm = 15;
-  const std::vector<float> gaps_mm = NetworkDepthErrorsMm(problem, pose, base_in_expression);
+  const std::vector<float> gaps_mm = NetworkDepthGapsMm(problem, pose, base_in_expression);
   std::vector<PixelConstraint> constraints;
   for (std::size_t i = 0; i < gaps_mm.size(); ++i) {
     const PointIndex k = point::kReliable[i];
@@ -55,10 +55,10 @@ void ShiftLidsToIrises(const PhotoIrises& irises, std::vector<PixelConstraint>& 
 std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   std::uint32_t nearest = 0;
   float distance = 1e9F;
-  const auto& topology = base.surface();
-  for (const auto& part : topology.parts) {
+  const auto& surface = base.surface();
+  for (const auto& part : surface.parts) {
     if (part.material != fsm::Material::kLip) continue;
-    for (const std::uint32_t v : topology.Corners(part)) {
+    for (const std::uint32_t v : surface.Corners(part)) {
       const float other = glm::distance(base.rest().position[v], p);
       if (other >= distance) continue;
       distance = other;
@@ -117,8 +117,8 @@ FitProblem::FitProblem(const ObservedHead& base_head, const FoundFace& found_fac
       depth_bias(DepthBias(base_head)),
       lips_apart(LipsApart(found_face)) {}
 
-std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraPose& pose,
-                                        std::span<const glm::vec3> base_in_expression) {
+std::vector<float> NetworkDepthGapsMm(const FitProblem& problem, const CameraPose& pose,
+                                      std::span<const glm::vec3> base_in_expression) {
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<float> gaps;
   float mean = 0;

@@ -36,8 +36,8 @@ struct FitProblem {
 
 /// Returns for each of point::kReliable how much nearer to the camera the network sees it than the
 /// base head has it, mean 0, millimetres. `base_in_expression`: as FittedHead's.
-std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraPose& pose,
-                                        std::span<const glm::vec3> base_in_expression);
+std::vector<float> NetworkDepthGapsMm(const FitProblem& problem, const CameraPose& pose,
+                                      std::span<const glm::vec3> base_in_expression);
 
 /// Returns the constraints of the warp for a pose: the network's points, whose
 /// depth is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down

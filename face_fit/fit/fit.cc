@@ -40,7 +40,7 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   }
   // The network's depth is less reliable than its x and y.
   constexpr double kDepthWeight = 0.4;
-  for (const float gap_mm : NetworkDepthErrorsMm(problem, pose, base_in_expression)) {
+  for (const float gap_mm : NetworkDepthGapsMm(problem, pose, base_in_expression)) {
     out.push_back(kDepthWeight * static_cast<double>(gap_mm));
   }
   // Priors, as the residual in millimetres of a unit at full strength: people mostly hold still for

@@ -86,7 +86,7 @@ fsm::Sided<fsm::EyeTransform> FitEyesTo(const ObservedHead& base, const CameraPo
 
 }  // namespace
 
-fsm::PhotoHead HeadOf(const FittedHead& fitted) {
+fsm::PhotoHead PhotoHeadOf(const FittedHead& fitted) {
   fsm::PhotoHead head;
   head.base = fitted.base->name();
   head.points = fitted.warp_points;
@@ -97,7 +97,7 @@ fsm::PhotoHead HeadOf(const FittedHead& fitted) {
 
 std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& state) {
   const ObservedHead& base = *fitted.base;
-  const fsm::Rig skin = fsm::MakeSkinRig(HeadOf(fitted));
+  const fsm::Rig skin = fsm::MakeSkinRig(PhotoHeadOf(fitted));
   fsm::HeadVertices vertices;
   (base.units() ? skin.WithUnits(*base.units()) : skin).Evaluate(state, vertices);
   return vertices.position;

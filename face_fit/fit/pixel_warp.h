@@ -11,7 +11,7 @@ namespace facefit {
 
 /// Returns the form of a fitted head as fsm makes it, with the eyes of the photo's expression; what
 /// the photo paints on it is left out.
-fsm::PhotoHead HeadOf(const FittedHead& fitted);
+fsm::PhotoHead PhotoHeadOf(const FittedHead& fitted);
 
 /// Returns the positions of the fitted head's skin as fsm will show it in a state, head's frame,
 /// millimetres: the first vertices of that head, numbered as in the base head.

@@ -170,7 +170,7 @@ fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int he
   return out;
 }
 
-fsm::Image Turned(const fsm::Image& image, int orientation) {
+fsm::Image OrientedByExif(const fsm::Image& image, int orientation) {
   const bool swaps = orientation >= 5;
   fsm::Image out =
       fsm::FilledImage(swaps ? image.height : image.width, swaps ? image.width : image.height);

@@ -79,6 +79,6 @@ fsm::Image ScaledToFit(fsm::Image image, int most_size);
 fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int height);
 
 /// Returns the image set upright; `orientation`: EXIF's 1..8, where 1 is upright.
-fsm::Image Turned(const fsm::Image& image, int orientation);
+fsm::Image OrientedByExif(const fsm::Image& image, int orientation);
 
 }  // namespace facefit

@@ -78,7 +78,7 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most
                     image->width, image->height, kMinSize));
   }
   *image = ScaledToFit(std::move(*image), most_size);
-  if (orientation != 1) *image = Turned(*image, orientation);
+  if (orientation != 1) *image = OrientedByExif(*image, orientation);
   return image;
 }
 

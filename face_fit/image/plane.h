@@ -46,7 +46,7 @@ inline float DistanceToSegment(glm::vec2 p, glm::vec2 a, glm::vec2 b) {
 /// Returns y at `x` of a polyline ordered by x; beyond its ends, y of the nearer end. REQUIRES: at
 /// least two points.
 template <typename Point>
-float HeightAt(std::span<const Point> line, float x) {
+float LineYAt(std::span<const Point> line, float x) {
   assert(line.size() >= 2);
   std::size_t k = 1;
   while (k + 1 < line.size() && line[k].x < x) ++k;

@@ -7,14 +7,14 @@
 namespace facefit {
 
 /// The left and the right edge of a photo, as its viewer sees them.
-enum class SideEdge { kLeft, kRight };
-inline constexpr std::array kSideEdges{SideEdge::kLeft, SideEdge::kRight};
+enum class PhotoEdge { kLeft, kRight };
+inline constexpr std::array kSideEdges{PhotoEdge::kLeft, PhotoEdge::kRight};
 
 /// A value for the left and for the right edge of a photo.
 template <typename T>
-using PerSideEdge = fsm::Sided<T, SideEdge>;
+using PerPhotoEdge = fsm::Sided<T, PhotoEdge>;
 
 /// Returns the direction towards the edge, as a step of x.
-constexpr float Outward(SideEdge side) { return side == SideEdge::kLeft ? -1.0F : 1.0F; }
+constexpr float Outward(PhotoEdge side) { return side == PhotoEdge::kLeft ? -1.0F : 1.0F; }
 
 }  // namespace facefit

@@ -38,11 +38,11 @@ constexpr float kScorePerMm = 0.05F;  // concordance that a millimetre of mean d
 
 using OutlineColumns = std::vector<std::optional<float>>;
 /// Returns for each row the figure's outermost column on a side; nothing where there is none.
-OutlineColumns OutlineColumnsOf(const Mask& opacity, SideEdge side) {
+OutlineColumns OutlineColumnsOf(const Mask& opacity, PhotoEdge side) {
   OutlineColumns columns(static_cast<std::size_t>(opacity.height));
   for (int y = 0; y < opacity.height; ++y) {
     for (int k = 0; k < opacity.width; ++k) {
-      const int x = side == SideEdge::kRight ? opacity.width - 1 - k : k;
+      const int x = side == PhotoEdge::kRight ? opacity.width - 1 - k : k;
       if (opacity(x, y) < 0.5F) continue;
       columns[static_cast<std::size_t>(y)] = static_cast<float>(x) + 0.5F;
       break;
@@ -134,7 +134,7 @@ FigureRows FigureRowsOf(const OutlineColumns& columns) {
 
 /// Returns the best of all placements on one outline; `towards`: as of ProfilePlacement.
 std::optional<ProfileMatch> SearchOutline(const std::vector<glm::vec3>& line,
-                                          const OutlineColumns& columns, SideEdge towards,
+                                          const OutlineColumns& columns, PhotoEdge towards,
                                           const FigureRows& rows) {
   std::optional<ProfileMatch> best;
   for (float pixels_per_mm = rows.Height() / kElbowsMm; pixels_per_mm < rows.Height() / kHeadMm;
@@ -191,7 +191,7 @@ glm::vec2 ProfilePlacement::PixelOf(glm::vec3 position) const {
 std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const Mask& opacity) {
   const std::vector<glm::vec3> line = ProfileOf(fitted, kThroatMm);
   std::optional<ProfileMatch> best;
-  for (const SideEdge towards : {SideEdge::kRight, SideEdge::kLeft}) {
+  for (const PhotoEdge towards : {PhotoEdge::kRight, PhotoEdge::kLeft}) {
     const OutlineColumns columns = OutlineColumnsOf(opacity, towards);
     const FigureRows rows = FigureRowsOf(columns);
     if (rows.Height() < kMinHeightPx || line.size() < kMinPoints) return {};

@@ -20,7 +20,7 @@ inline constexpr float kMaxProfileGapMm = 4;
 
 /// Where an image shows the profile.
 struct ProfilePlacement {
-  SideEdge towards = SideEdge::kRight;  ///< the side that the face looks to
+  PhotoEdge towards = PhotoEdge::kRight;  ///< the side that the face looks to
   float pixels_per_mm = 1;
   float tilt_rad = 0;
   glm::vec2 pixel{0};   ///< the projection of `middle`

@@ -13,7 +13,7 @@ namespace facefit {
 class FaceNetworks;
 
 /// A photo of the person from the side from which the skin's map takes colours.
-struct TurnedView {
+struct PosedSidePhoto {
   FoundFace face;
   CameraPose pose;
   FigureCutout figure;
@@ -29,7 +29,7 @@ struct SidePhotoFit {
   FaceFit fit;
   /// Of turned faces. There is none of a full profile: front and profile show too little common
   /// skin to match their light.
-  std::vector<TurnedView> views;
+  std::vector<PosedSidePhoto> views;
   std::vector<RejectedPhoto> rejected;
 };
 /// Corrects the depth of a fit by photos of the person from the side, turned or in full profile.

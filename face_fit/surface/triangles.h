@@ -23,10 +23,10 @@ struct MeshTriangle {
 
 /// Calls `f` with each triangle whose material is kept.
 template <typename Keep, typename F>
-void ForEachTriangle(const fsm::HeadSurface& topology, Keep keep_material, F f) {
-  for (const auto& part : topology.parts) {
+void ForEachTriangle(const fsm::HeadSurface& surface, Keep keep_material, F f) {
+  for (const auto& part : surface.parts) {
     if (!keep_material(part.material)) continue;
-    const auto corners = topology.Corners(part);
+    const auto corners = surface.Corners(part);
     for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
       f(MeshTriangle{{corners[k], corners[k + 1], corners[k + 2]}, part.material});
     }
@@ -35,15 +35,15 @@ void ForEachTriangle(const fsm::HeadSurface& topology, Keep keep_material, F f) 
 
 /// Calls `f` with each triangle of skin and lips.
 template <typename F>
-void ForEachSkinAndLipTriangle(const fsm::HeadSurface& topology, F f) {
+void ForEachSkinAndLipTriangle(const fsm::HeadSurface& surface, F f) {
   ForEachTriangle(
-      topology,
+      surface,
       [](fsm::Material m) { return m == fsm::Material::kSkin || m == fsm::Material::kLip; }, f);
 }
 /// Returns the corners of these triangles, three indices each.
-inline std::vector<std::uint32_t> SkinAndLipCorners(const fsm::HeadSurface& topology) {
+inline std::vector<std::uint32_t> SkinAndLipCorners(const fsm::HeadSurface& surface) {
   std::vector<std::uint32_t> corners;
-  ForEachSkinAndLipTriangle(topology, [&](const MeshTriangle& triangle) {
+  ForEachSkinAndLipTriangle(surface, [&](const MeshTriangle& triangle) {
     corners.insert(corners.end(), triangle.corner.begin(), triangle.corner.end());
   });
   return corners;

@@ -44,14 +44,14 @@ const SurfaceSample* VisibleSurface::SampleAt(int column, int row) const {
   return depth_(column, row) > kNothing ? &samples_[depth_.Index(column, row)] : nullptr;
 }
 
-VisibleSurface DrawSkin(const fsm::HeadSurface& topology, std::vector<glm::vec3> screen,
+VisibleSurface DrawSkin(const fsm::HeadSurface& mesh, std::vector<glm::vec3> screen,
                         const SampleGrid& grid) {
   VisibleSurface surface(grid, std::move(screen));
-  ForEachSkinAndLipTriangle(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
+  ForEachSkinAndLipTriangle(mesh, [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 
-VisibleSurface VisibleFromFront(const fsm::HeadSurface& topology,
+VisibleSurface VisibleFromFront(const fsm::HeadSurface& mesh,
                                 const std::vector<glm::vec3>& position, glm::vec2 low,
                                 glm::vec2 high) {
   constexpr float kMaxMm = 200;
@@ -59,7 +59,7 @@ VisibleSurface VisibleFromFront(const fsm::HeadSurface& topology,
   VisibleSurface surface({low + 0.5F * kFrontStepMm, kFrontStepMm, points.x, points.y}, position,
                          VisibleSurface::Upward::kYes);
   const auto opaque = [](fsm::Material m) { return !IsHair(m) && m != fsm::Material::kShutLash; };
-  ForEachTriangle(topology, opaque, [&](const MeshTriangle& t) { surface.DrawFront(t); });
+  ForEachTriangle(mesh, opaque, [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 

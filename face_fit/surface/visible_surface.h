@@ -62,13 +62,13 @@ class VisibleSurface {
 };
 
 /// Returns the skin that is seen from the front. `screen`: as for VisibleSurface.
-VisibleSurface DrawSkin(const fsm::HeadSurface& topology, std::vector<glm::vec3> screen,
+VisibleSurface DrawSkin(const fsm::HeadSurface& mesh, std::vector<glm::vec3> screen,
                         const SampleGrid& grid);
 
 inline constexpr float kFrontStepMm = 0.125F;
 /// Returns the front view of a head that faces +z, in the window low..high, in steps of
 /// kFrontStepMm, rows upward, without hair and lashes. Millimetres; at most 200 to a side.
-VisibleSurface VisibleFromFront(const fsm::HeadSurface& topology,
+VisibleSurface VisibleFromFront(const fsm::HeadSurface& mesh,
                                 const std::vector<glm::vec3>& position, glm::vec2 low,
                                 glm::vec2 high);
 

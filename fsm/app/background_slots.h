@@ -9,7 +9,7 @@
 namespace fsm {
 
 /// The slots of what is behind the agent.
-class BackgroundSlots final : public Activity {
+class BackgroundSlots final : public SlotGroup {
  public:
   /// `backgrounds`: names and files of the configuration. `first`: the initial one; if empty, the
   /// first of `backgrounds`, or the plain one. Throws std::runtime_error if `first` cannot be

@@ -8,7 +8,7 @@
 namespace fsm {
 
 /// The slot Capture: numbered pictures of an utterance.
-class CaptureSlots final : public Activity {
+class CaptureSlots final : public SlotGroup {
  public:
   /// Declares the slot. `core` outlives this.
   explicit CaptureSlots(FsmCore& core);

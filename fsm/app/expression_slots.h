@@ -12,7 +12,7 @@ namespace fsm {
 /// `def FaceExp.NAME = LOOK` (pattern 1) and `def FaceExp.NAME.PATTERN = LOOK` define new ones;
 /// `del FaceExp.NAME` removes a new one and restores a changed one. `Run = INIT` undoes all.
 /// Limit: kMaxOwnSlots new slots between two of these.
-class ExpressionSlots final : public Activity {
+class ExpressionSlots final : public SlotGroup {
  public:
   static constexpr std::size_t kMaxOwnSlots = 200;
   struct Name {

@@ -40,8 +40,8 @@ void DeclareUnits(FsmCore& core) {
                         .initial = "0",
                         .help = "Strength of " + what + " in per cent, 0 to 200.",
                         .on_set = core.Clamped(0, 200, [&core](const vm::SetValue& value) {
-                          return core.motion->SetFace(core.Now(), NumberOf(value.slot),
-                                                      value.number(0) / 100);
+                          return core.motion->SetListedUnit(core.Now(), NumberOf(value.slot),
+                                                            value.number(0) / 100);
                         })});
   }
   for (std::size_t i = 1; i <= kMouthParameters; ++i) {

@@ -37,7 +37,6 @@ class FilmRecorder {
   vm::Result<Summary> Stop(const std::string& sound);
 
   bool recording() const { return writer_ != nullptr; }
-  const std::string& path() const { return path_; }
   /// The instant of frame 0. REQUIRES: recording.
   vm::Time start() const { return series_.start; }
 

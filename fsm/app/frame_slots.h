@@ -10,7 +10,7 @@ namespace fsm {
 
 /// Reports on frames: the slot Frame reports each frame drawn; the module named by Frame.to is sent
 /// the state of the face (FaceFrame).
-class FrameSlots final : public Activity {
+class FrameSlots final : public SlotGroup {
  public:
   /// Declares the slots. `core` and `record` outlive this.
   FrameSlots(FsmCore& core, const RecordSlots& record);

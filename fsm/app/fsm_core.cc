@@ -17,7 +17,7 @@ vm::Result<void> FsmCore::DrawAt(vm::Time t) {
 
 vm::Result<void> FsmCore::DrawFrame(long number, vm::Time t) {
   if (auto drawn = DrawAt(t); !drawn) return drawn;
-  for (const auto& activity : activities) activity->OnFilmFrame(number, t);
+  for (const auto& group : slot_groups) group->OnFilmFrame(number, t);
   return {};
 }
 

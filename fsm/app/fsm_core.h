@@ -18,11 +18,11 @@
 
 namespace fsm {
 
-/// What the module does by itself after commands, with a state of its own. It is told what
-/// concerns it.
-class Activity {
+/// Slots that belong together, with a state of their own and what the module does by itself after
+/// their commands. A group is told what concerns it.
+class SlotGroup {
  public:
-  virtual ~Activity() = default;
+  virtual ~SlotGroup() = default;
   /// Stops what is under way, such as films. Called for `Run = INIT`, before the motion is
   /// replaced, and at the end of the module.
   virtual void StopActivity() {}
@@ -49,9 +49,9 @@ struct Conventions {
   static Conventions OfOriginal();
 };
 
-/// The state that the activities of the face module share. Slots are declared by slots.Declare;
+/// The state that the slot_groups of the face module share. Slots are declared by slots.Declare;
 /// Command, CommandLater, Clamped and Setting make their actions. Lifetime: owned by FsmModule,
-/// outlives the activities.
+/// outlives the slot_groups.
 struct FsmCore {
   vm::Scheduler& clock;
   FaceView& view;
@@ -65,7 +65,7 @@ struct FsmCore {
   bool simulates = true;  ///< whether springs move
   /// Called after every command, by all that Command and the like below make.
   std::function<void()> notify_changed = [] {};
-  std::vector<std::unique_ptr<Activity>> activities{};
+  std::vector<std::unique_ptr<SlotGroup>> slot_groups{};
 
   vm::Time Now() const { return clock.Now(); }
 
@@ -74,12 +74,12 @@ struct FsmCore {
   /// Draws the face at `t` as frame `number` of a film.
   vm::Result<void> DrawFrame(long number, vm::Time t);
 
-  /// Makes an activity of this core with the arguments `with`, and returns it.
+  /// Makes a group of slots of this core with the arguments `with`, and returns it.
   template <typename Made, typename... With>
   Made& Add(With&&... with) {
-    auto activity = std::make_unique<Made>(*this, std::forward<With>(with)...);
-    Made& made = *activity;
-    activities.push_back(std::move(activity));
+    auto group = std::make_unique<Made>(*this, std::forward<With>(with)...);
+    Made& made = *group;
+    slot_groups.push_back(std::move(group));
     return made;
   }
 

@@ -82,11 +82,11 @@ void FsmModule::MakeMotion() {
 void FsmModule::Initialise() {
   core_.slots.Store("Error", "");
   // Films end first, with the face and the sound file from before INIT.
-  for (const auto& activity : core_.activities) activity->StopActivity();
+  for (const auto& group : core_.slot_groups) group->StopActivity();
   MakeMotion();
   ResetScene(core_);
   core_.slots.StoreInitialValues();
-  for (const auto& activity : core_.activities) activity->RestoreInitial();
+  for (const auto& group : core_.slot_groups) group->RestoreInitial();
   Changed();
 }
 
@@ -125,7 +125,7 @@ void FsmModule::MakeFrameLoop(const RecordSlots& record, FrameSlots& frames) {
 }
 
 void FsmModule::Changed() {
-  for (const auto& activity : core_.activities) activity->OnChange();
+  for (const auto& group : core_.slot_groups) group->OnChange();
   frame_loop_->OnChange();
 }
 
@@ -144,15 +144,14 @@ bool FsmModule::DrawInWindow(vm::Time now) {
 }
 
 bool FsmModule::Busy() const {
-  return !frame_loop_->AtRest() || std::ranges::any_of(core_.activities, [](const auto& activity) {
-    return activity->Busy();
-  });
+  return !frame_loop_->AtRest() ||
+         std::ranges::any_of(core_.slot_groups, [](const auto& group) { return group->Busy(); });
 }
 
 void FsmModule::Shutdown() {
   // The runtime runs due timers before it ends. If drawing takes longer than the interval between
   // pictures, a capture would always have another one due.
-  for (const auto& activity : core_.activities) activity->StopActivity();
+  for (const auto& group : core_.slot_groups) group->StopActivity();
   frame_loop_->Stop();
 }
 

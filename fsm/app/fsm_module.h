@@ -61,7 +61,7 @@ class FsmModule final : public vm::Module {
   MotionSettings start_settings_;
   FsmCore core_;
   double frame_rate_ = 60;               // of a window
-  std::optional<FrameLoop> frame_loop_;  // refers to activities of core_
+  std::optional<FrameLoop> frame_loop_;  // refers to slot_groups of core_
   bool exit_requested_ = false;
 };
 

@@ -22,7 +22,7 @@ constexpr SlotWord<LipMode> kModes[] = {{"DOMINANCE", LipMode::kDominance},
                                         {"LINEAR", LipMode::kLinear}};
 
 /// Returns the values of LipSync.scale: the sizes of jaw and lip movements in per cent.
-std::vector<SlotWord<glm::vec2>> WaysOfSpeaking(const GestureNumbers& gestures) {
+std::vector<SlotWord<glm::vec2>> WaysOfSpeaking(const MovementNumbers& gestures) {
   const auto& [jaw, lips] = std::tie(gestures.jaw, gestures.lips);
   return {{"MUMBLED", {jaw.mumbled, lips.mumbled}},
           {"SOFT", {jaw.soft, lips.soft}},

@@ -8,7 +8,7 @@
 namespace fsm {
 
 /// The slots that choose the face: MaskSet, NowMask and Mask.
-class MaskSlots final : public Activity {
+class MaskSlots final : public SlotGroup {
  public:
   /// `initial`: the initial face, "" = the library's first. `listed`: the names that MaskSet
   /// reports. Names that the library does not have are left out, and if none remains, all faces

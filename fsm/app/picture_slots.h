@@ -6,7 +6,7 @@
 namespace fsm {
 
 /// The slots Picture.to and Picture.fps: pictures for another program.
-class PictureSlots final : public Activity {
+class PictureSlots final : public SlotGroup {
  public:
   /// Declares the slots. `core` outlives this.
   explicit PictureSlots(FsmCore& core);

@@ -8,7 +8,7 @@
 namespace fsm {
 
 /// The slot Record and its settings: films of the face.
-class RecordSlots final : public Activity {
+class RecordSlots final : public SlotGroup {
  public:
   /// Declares the slots. `core` outlives this.
   explicit RecordSlots(FsmCore& core);

@@ -208,7 +208,7 @@ void SpeechSlots::Begin() {
 
 void SpeechSlots::TellSpeaking(vm::Time start) {
   SetState(State::kSpeaking);
-  for (const auto& activity : core_.activities) activity->OnSpeechBegin(start);
+  for (const auto& group : core_.slot_groups) group->OnSpeechBegin(start);
   WaitForEnd();
 }
 
@@ -246,7 +246,7 @@ void SpeechSlots::EndSpeech(vm::PhonemeList spoken) {
   core_.slots.Store("Speak.len", LengthOf(spoken_));
   core_.slots.Store("Speak.utt", spoken_.empty() ? kEmptyValue : vm::FormatPhonemesFace(spoken_));
   SetState(State::kIdle);
-  for (const auto& activity : core_.activities) activity->OnSpeechEnd();
+  for (const auto& group : core_.slot_groups) group->OnSpeechEnd();
 }
 
 void SpeechSlots::RestoreInitial() {

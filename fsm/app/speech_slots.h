@@ -16,7 +16,7 @@ namespace fsm {
 /// `Speak` before LipSync.pho is stored and executed as soon as the phonemes arrive. LipSync.pho
 /// while SPEAKING is an error. The end and STOP report IDLE; Speak.len and Speak.utt are set then,
 /// and reported with the next LipSync.pho.
-class SpeechSlots final : public Activity {
+class SpeechSlots final : public SlotGroup {
  public:
   /// Declares the slots. `core` outlives this.
   explicit SpeechSlots(FsmCore& core);

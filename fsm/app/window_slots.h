@@ -5,7 +5,7 @@
 namespace fsm {
 
 /// The slot Window: the size of the view, or a window that fills the screen.
-class WindowSlots final : public Activity {
+class WindowSlots final : public SlotGroup {
  public:
   /// Declares the slot. The size stays while `record` makes a film. Both outlive this.
   WindowSlots(FsmCore& core, const RecordSlots& record);

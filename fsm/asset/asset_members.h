@@ -277,7 +277,7 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("normal_twin", rig.normals.twin);
   v("mouth", rig.mouth);
   v("asymmetry_seed", rig.asymmetry_seed);
-  v("units_by_place", rig.units_by_place);
+  v("units_by_place", rig.has_unit_channels);
   v("channels", rig.channels);
   v("lids", rig.lids);
   v("ball_lids", rig.ball_lids);

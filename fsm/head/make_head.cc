@@ -181,7 +181,7 @@ RigData RigOf(const HeadSources& from, const BaseSkin& skin, const FormedHead& h
   rig.units = BuiltInUnits();
   rig.units.Add(identity.units);
   rig.asymmetry_seed = static_cast<int>(identity.index);
-  rig.units_by_place = true;
+  rig.has_unit_channels = true;
   rig.creases.at_rest = identity.creases;
   const std::span<const BakeWeights> weights = head.mesh.weights;
   rig.channels = UnitChannels(rig.units, rig.bone, rig.weights);

@@ -85,7 +85,7 @@ void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
 // ---- as a source
 
 EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
-  const GestureNumbers::Think& think = gestures_.think;
+  const MovementNumbers::Think& think = gestures_.think;
   const auto saccade_ms = [&](std::int64_t k) {
     return k == 0 ? 0
                   : think.interval_ms *

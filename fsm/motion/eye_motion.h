@@ -61,7 +61,7 @@ class EyeMotion : public MotionSource {
     vm::Time start;
   };
   const MotionPatterns& patterns_;
-  const GestureNumbers& gestures_;
+  const MovementNumbers& gestures_;
   const MotionSettings& settings_;
   const IdleSwitches& switches_;
   std::uint64_t seed_;

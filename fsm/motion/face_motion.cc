@@ -10,7 +10,7 @@ namespace fsm {
 
 // ---- commands that concern more than one source
 
-vm::Result<void> FaceMotion::SetFace(vm::Time now, int position, double strength) {
+vm::Result<void> FaceMotion::SetListedUnit(vm::Time now, int position, double strength) {
   if (auto fits = CheckStrength(strength); !fits) return fits;
   const std::vector<FaceSlot>& slots = inputs_.tables.unit_list.face_slots;
   const auto index = static_cast<std::size_t>(position - 1);

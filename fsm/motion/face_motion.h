@@ -62,7 +62,7 @@ class FaceMotion {
   // Commands for more than one source.
 
   /// Sets Face.N; see FaceSlot for `position`. `strength`: 0..2, 1 = full.
-  vm::Result<void> SetFace(vm::Time now, int position, double strength);
+  vm::Result<void> SetListedUnit(vm::Time now, int position, double strength);
   /// Plays a movement of the slot FaceMot `count` times (1..20). SHAKE is another name for REFUSE,
   /// TILT for LISTEN.
   vm::Result<void> PlayMovement(vm::Time now, std::string_view kind, int pattern,

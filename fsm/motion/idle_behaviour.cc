@@ -129,7 +129,7 @@ double IdleBehaviour::BreathAt(const AutoBreath& pattern, vm::Time since) const 
 }
 
 EyeAngles IdleBehaviour::SaccadesAt(const AutoGaze& gaze, vm::Time t) const {
-  const GestureNumbers::Saccade& saccade = gestures_.saccade;
+  const MovementNumbers::Saccade& saccade = gestures_.saccade;
   const auto saccade_ms = [&](std::int64_t k) {
     return gaze.interval_ms * (static_cast<double>(k) + saccade.begin_share.start +
                                saccade.begin_share.added * Random(RandomStream::kGazeTime, k));
@@ -150,7 +150,7 @@ vm::Time IdleBehaviour::BlinkInterval(std::size_t pattern, std::int64_t index) c
   const double normal = Random(RandomStream::kBlinkTime, n) +
                         Random(RandomStream::kBlinkTime, n + 1) +
                         Random(RandomStream::kBlinkTime, n + 2);
-  const GestureNumbers::Blink& blink = gestures_.blink;
+  const MovementNumbers::Blink& blink = gestures_.blink;
   const double interval = mean * std::clamp(blink.median * std::exp(blink.log_spread * normal),
                                             double{blink.shortest}, double{blink.longest});
   return FromMs(index == 0 ? blink.first * interval : interval);

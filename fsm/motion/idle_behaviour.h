@@ -53,7 +53,7 @@ class IdleBehaviour : public MotionSource {
   Blink LastBlink(std::size_t pattern, vm::Time since, vm::Time t) const;
 
   const MotionPatterns& patterns_;
-  const GestureNumbers& gestures_;
+  const MovementNumbers& gestures_;
   const IdleSwitches& switches_;
   std::uint64_t seed_;
   /// A cache: the blink that was asked for last. A blink begins after the sum of all intervals

@@ -78,7 +78,7 @@ std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> 
   return channels;
 }
 
-ChannelDrives::ChannelDrives(std::span<const Channel> channels) {
+ChannelStrengths::ChannelStrengths(std::span<const Channel> channels) {
   std::map<std::array<int, 4>, std::uint32_t> known;
   for (const Channel& channel : channels) {
     for (const auto& [drive, gain] : channel.drivers) {
@@ -91,8 +91,8 @@ ChannelDrives::ChannelDrives(std::span<const Channel> channels) {
   }
 }
 
-void ChannelDrives::ComputeStrengths(std::span<const Channel> channels, const FaceState& state,
-                                     const Pose& pose, std::vector<float>& out) const {
+void ChannelStrengths::ComputeStrengths(std::span<const Channel> channels, const FaceState& state,
+                                        const Pose& pose, std::vector<float>& out) const {
   thread_local std::vector<float> values;  // by drive; kept from frame to frame
   values.clear();
   for (const Drive& drive : drives_) values.push_back(ValueOf(drive, state, pose));

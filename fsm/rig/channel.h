@@ -77,9 +77,9 @@ std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> 
                                   std::span<const SkinWeights> weights);
 
 /// Evaluates each distinct Drive once per state.
-class ChannelDrives {
+class ChannelStrengths {
  public:
-  explicit ChannelDrives(std::span<const Channel> channels);
+  explicit ChannelStrengths(std::span<const Channel> channels);
   /// Appends to `out` one strength for each of `channels`, the ones given to the constructor.
   void ComputeStrengths(std::span<const Channel> channels, const FaceState& state, const Pose& pose,
                         std::vector<float>& out) const;

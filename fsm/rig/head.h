@@ -35,7 +35,7 @@ class Head {
     rig_.Evaluate(state, out, spring_offsets);
   }
   /// Returns the same head with the same surface whose action units move as another table says;
-  /// displacements that are the head's own (RigData::units_by_place) stay.
+  /// displacements that are the head's own (RigData::has_unit_channels) stay.
   std::unique_ptr<Head> WithUnits(const UnitTable& units) const;
   MouthMeasure MeasureMouth(const FaceState& state) const { return rig_.MeasureMouth(state); }
   /// Returns the rest position of a landmark named after Farkas: "nasion", "pronasale",

@@ -114,7 +114,7 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
 Rig Rig::WithUnits(const UnitTable& units) const {
   RigData data = data_;
   data.units = units;
-  if (data.units_by_place) {
+  if (data.has_unit_channels) {
     std::erase_if(data.channels,
                   [](const Channel& channel) { return channel.IsLedBy(Drive::Kind::kUnit); });
     std::ranges::move(UnitChannels(data.units, data.bone, data.weights),

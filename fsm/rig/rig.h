@@ -58,7 +58,7 @@ class Rig {
   RigData data_;
   UnitCombiner combiner_;
   MovedVertices moved_;
-  ChannelDrives drives_;
+  ChannelStrengths drives_;
 };
 
 }  // namespace fsm

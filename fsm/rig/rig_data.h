@@ -117,7 +117,7 @@ struct RigData {
   std::optional<int> asymmetry_seed;  ///< for UnitCombiner; none: both sides alike
   /// Whether UnitChannels computes the displacements of the action units from `units` and
   /// `weights`; otherwise they are the head's own.
-  bool units_by_place = false;
+  bool has_unit_channels = false;
   CreaseRig creases;
 
   std::vector<Channel> channels;

@@ -182,13 +182,13 @@ std::pair<float, float> UpperTeethOf(const fsm::PhotoHead& set) {
   const auto head = fsm::MakeHead(set);
   fsm::HeadVertices rest;
   head->Evaluate({}, rest);
-  const auto& topology = head->surface();
+  const auto& surface = head->surface();
   const glm::vec3 incisor = rest.position[head->mouth().incisors->upper];
   glm::vec2 z(0), count(0);
-  for (const auto& part : topology.parts) {
+  for (const auto& part : surface.parts) {
     if (part.material != fsm::Material::kTeeth) continue;
     for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
-      const glm::vec3 p = rest.position[topology.indices[k]];
+      const glm::vec3 p = rest.position[surface.indices[k]];
       const float side = p.x - incisor.x;
       if (p.y < incisor.y || std::abs(side) < 8 || std::abs(side) > 20) continue;
       z[side > 0] += p.z;

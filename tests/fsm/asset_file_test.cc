@@ -330,7 +330,7 @@ TEST(RigTest, AMouthIsMeasuredWhicheverStepsThereAre) {
 
 TEST(RigTest, AChannelWithoutDriversIsKeptWhenUnitsChange) {
   RigData data = BallAsset().rig;
-  data.units_by_place = true;
+  data.has_unit_channels = true;
   data.channels.emplace_back().moves = {{0, {1, 2, 3}}};
   EXPECT_EQ(Rig(data).WithUnits({}).data().channels.size(), 1U);
 }

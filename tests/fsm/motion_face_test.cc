@@ -92,7 +92,7 @@ TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
             "NOD has no pattern 6; 1 to 5 expected");
   EXPECT_FALSE(motion.switches().Set(0ms, "USERDEF", 1));
   EXPECT_TRUE(motion.switches().Set(0ms, "USERDEF", 0));
-  EXPECT_FALSE(motion.SetFace(0ms, 37, 1));
+  EXPECT_FALSE(motion.SetListedUnit(0ms, 37, 1));
   EXPECT_FALSE(motion.mouth.Set(0ms, 18, 1));
   EXPECT_FALSE(motion.action_units.Set(0ms, "3 1 0"));
   EXPECT_FALSE(motion.blend_shapes.Set(0ms, "jawSideways", 1, 0ms));
@@ -113,8 +113,8 @@ TEST_F(FaceMotionTest, UnitsCanBeMovedOnOneSide) {
 }
 
 TEST_F(FaceMotionTest, FacePositionsAreUnitsAndEmotions) {
-  ASSERT_TRUE(motion.SetFace(0ms, 30, 1));
-  ASSERT_TRUE(motion.SetFace(0ms, 31, 0.5));
+  ASSERT_TRUE(motion.SetListedUnit(0ms, 30, 1));
+  ASSERT_TRUE(motion.SetListedUnit(0ms, 31, 0.5));
   const FaceState state = motion.StateAt(1s);
   EXPECT_FLOAT_EQ(state.au.left[43], 1);
   EXPECT_FLOAT_EQ(state.au.left[12], 0.5f);
@@ -288,7 +288,7 @@ TEST_F(FaceMotionTest, StatesStayFiniteUnderManyCommands) {
                                      std::chrono::milliseconds(random(300)));
         break;
       case 1:
-        (void)motion.SetFace(t, 1 + random(36), random(200) / 100.0);
+        (void)motion.SetListedUnit(t, 1 + random(36), random(200) / 100.0);
         break;
       case 2:
         motion.eyes.Rotate(t, {.right = random(2) == 0, .left = true},

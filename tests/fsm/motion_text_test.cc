@@ -40,7 +40,7 @@ struct Seen {
 };
 std::vector<Seen> Looks(const std::string& text) {
   static const TextCues cues = ReadTextCues("t", kTable, UnitNames::BuiltIn()).value();
-  static const GestureNumbers gestures = MotionTables::Load()->gestures;
+  static const MovementNumbers gestures = MotionTables::Load()->gestures;
   std::vector<Seen> seen;
   for (const TimedLook& timed : LooksOf(cues, text, TwoSentences(), gestures)) {
     seen.push_back({timed.shown->name, timed.start_ms, timed.end_ms});

@@ -150,7 +150,7 @@ TEST(OwnUnitNamesTest, SayWhetherNameOrNumberIsThereTwice) {
 TEST_F(UnitsTest, StrengthsThatAreNoneAreRefusedEverywhere) {
   for (const double bad : {std::nan(""), 1e9, -0.1, std::numeric_limits<double>::infinity()}) {
     EXPECT_FALSE(motion.expression.Show(0ms, "HAPPY", 1, bad, 0ms)) << bad;
-    EXPECT_FALSE(motion.SetFace(0ms, 1, bad)) << bad;
+    EXPECT_FALSE(motion.SetListedUnit(0ms, 1, bad)) << bad;
     EXPECT_FALSE(motion.mouth.Set(0ms, 1, bad)) << bad;
     EXPECT_FALSE(motion.action_units.Set(0ms, "12 " + std::to_string(bad))) << bad;
     EXPECT_FALSE(motion.blend_shapes.Set(0ms, "jawOpen", bad, 0ms)) << bad;

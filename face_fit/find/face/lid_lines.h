@@ -63,7 +63,7 @@ class LidLines {
     return origin_ + along * width_ * along_axis_ + down * down_axis_;
   }
   LidHeights LidsAt(float along) const {
-    return {HeightAt<glm::vec2>(upper_, along), HeightAt<glm::vec2>(lower_, along)};
+    return {LineYAt<glm::vec2>(upper_, along), LineYAt<glm::vec2>(lower_, along)};
   }
 
  private:

@@ -166,7 +166,7 @@ PhotoLipSeam TraceLipSeam(const fsm::Image& photo, const FoundFace& face,
   };
   const auto network_offset = [&](std::size_t i) {
     const float t = PositionOf(i);
-    return kOffsets / 2 + (HeightAt<glm::vec2>(network_line, t) - parabola.At(t)) / step;
+    return kOffsets / 2 + (LineYAt<glm::vec2>(network_line, t) - parabola.At(t)) / step;
   };
   // The path from end to end that is dark, smooth and near the network's line; that line where
   // nothing is dark.

@@ -48,7 +48,7 @@ UprightPhoto SetUpright(FaceNetworks& networks, fsm::Image photo) {
   if (clear.upright <= count * (count > 1 ? kUprightGroup : kUprightOne)) {
     float best = clear.detected + kClearer * std::max(count, 1.0F);
     for (const int other : {6, 8, 3}) {
-      auto turned_faces = FindFaces(networks, Turned(photo, other));
+      auto turned_faces = FindFaces(networks, OrientedByExif(photo, other));
       const float detected = ClearnessOf(turned_faces).detected;
       if (detected <= best) continue;
       best = detected;
@@ -56,7 +56,7 @@ UprightPhoto SetUpright(FaceNetworks& networks, fsm::Image photo) {
       faces = std::move(turned_faces);
     }
   }
-  if (orientation != 1) photo = Turned(photo, orientation);
+  if (orientation != 1) photo = OrientedByExif(photo, orientation);
   return {std::move(photo), orientation, std::move(faces)};
 }
 

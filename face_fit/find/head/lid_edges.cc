@@ -127,9 +127,9 @@ std::optional<LidEdges> FindLidEdges(const fsm::Head& head, const std::vector<gl
   return edges;
 }
 
-std::vector<bool> EyeVertices(const fsm::HeadSurface& topology) {
-  std::vector<bool> is_eye(topology.albedo.size(), false);
-  for (const std::uint32_t v : fsm::EyeballTriangles(topology)) is_eye[v] = true;
+std::vector<bool> EyeVertices(const fsm::HeadSurface& surface) {
+  std::vector<bool> is_eye(surface.albedo.size(), false);
+  for (const std::uint32_t v : fsm::EyeballTriangles(surface)) is_eye[v] = true;
   return is_eye;
 }
 

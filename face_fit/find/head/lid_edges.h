@@ -26,6 +26,6 @@ std::optional<LidEdges> FindLidEdges(const fsm::Head& head, const std::vector<gl
                                      const std::vector<bool>& is_eye, fsm::Side side);
 
 /// Returns for each vertex whether it belongs to an eyeball by its material.
-std::vector<bool> EyeVertices(const fsm::HeadSurface& topology);
+std::vector<bool> EyeVertices(const fsm::HeadSurface& surface);
 
 }  // namespace facefit

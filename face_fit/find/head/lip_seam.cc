@@ -78,7 +78,7 @@ std::optional<Columns> MouthColumns(const Crossings& crossings) {
 
 }  // namespace
 
-std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& topology,
+std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& mesh,
                                    const std::vector<glm::vec3>& position,
                                    const std::vector<std::uint32_t>& skin_triangles,
                                    bool has_uv_seams, std::span<const glm::vec3> upper,
@@ -90,7 +90,7 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& topology,
     for (const glm::vec3& p : list) lips.Add(p);
   }
   const VisibleSurface view =
-      VisibleFromFront(topology, position, lips.low - kMarginMm, lips.high + kMarginMm);
+      VisibleFromFront(mesh, position, lips.low - kMarginMm, lips.high + kMarginMm);
   const auto crossings = FindCrossings(view, surface, surface.DistancesFrom(upper, kReachMm),
                                        surface.DistancesFrom(lower, kReachMm));
   const auto mouth = MouthColumns(crossings);

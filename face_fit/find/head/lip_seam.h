@@ -29,7 +29,7 @@ struct LipSeam {
 /// Finds the lip seam of a head that faces +z, millimetres; nothing if there is none of 20 to 90
 /// mm. `skin_triangles`: of skin, lips and mouth; `has_uv_seams`: as for fsm::TransferSurface;
 /// `upper`, `lower`: positions on the outer edges of the lips.
-std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& topology,
+std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& mesh,
                                    const std::vector<glm::vec3>& position,
                                    const std::vector<std::uint32_t>& skin_triangles,
                                    bool has_uv_seams, std::span<const glm::vec3> upper,

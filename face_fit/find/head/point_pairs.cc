@@ -53,7 +53,8 @@ MirrorPlane FindMirrorPlane(std::span<const fsm::PointPair> pairs) {
 }  // namespace
 
 std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs) {
-  constexpr float kMinLimitMm = 8, kTimes = 3;  // the second is a multiple of the median distance
+  constexpr float kMinLimitMm = 8,
+                  kLimitByMedian = 3;  // the second is a multiple of the median distance
   constexpr int kRounds = 6;
   std::vector<fsm::PointPair> kept(pairs.begin(), pairs.end());
   for (int round = 0; round < kRounds; ++round) {
@@ -63,7 +64,7 @@ std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs
     };
     std::vector<float> distances;
     for (const auto& pair : pairs) distances.push_back(gap_mm(pair));
-    const float limit = std::max(kMinLimitMm, kTimes * Median(std::move(distances)));
+    const float limit = std::max(kMinLimitMm, kLimitByMedian * Median(std::move(distances)));
     kept.clear();
     std::ranges::copy_if(pairs, std::back_inserter(kept),
                          [&](const auto& pair) { return gap_mm(pair) <= limit; });

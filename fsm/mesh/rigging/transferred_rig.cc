@@ -288,7 +288,7 @@ RigData TransferRig(UnriggedHead& model, const Head& source, std::span<const Poi
   RigResampler(from, rows, rig).Resample(model.mesh.position);
   rig.units = from.units;
   rig.asymmetry_seed = from.asymmetry_seed;
-  rig.units_by_place = true;
+  rig.has_unit_channels = true;
   std::ranges::move(UnitChannels(rig.units, model.mesh.bone, rig.weights),
                     std::back_inserter(rig.channels));
   rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};  // twice, as in make_head.cc

@@ -107,10 +107,11 @@ void LoadMouth(Loader& loader, MotionTables& out) {
   loader.Get(out.engines, Source("phoneme_names.txt"), ReadPhonemeNames, out.set(VisemeSetId::k28));
 }
 
-vm::Result<GestureNumbers> ReadGestures(const std::string& name, std::string_view text) {
+vm::Result<MovementNumbers> ReadGestures(const std::string& name, std::string_view text) {
   static const NumberTable built_in("tables/gestures.txt", embedded::gestures());
-  return ReadTable(
-      name, text, [&](const Table&) { return GestureNumbers(NumberTable(name, text, &built_in)); });
+  return ReadTable(name, text, [&](const Table&) {
+    return MovementNumbers(NumberTable(name, text, &built_in));
+  });
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct MotionTables {
   BlendShapes blend_shapes;
   Mixer mixer;
   TextCues text_cues;
-  GestureNumbers gestures;  ///< gestures.txt explains each number
+  MovementNumbers gestures;  ///< gestures.txt explains each number
 
   VisemeSet& set(VisemeSetId id) { return sets.at(id); }
   const VisemeSet& set(VisemeSetId id) const { return sets.at(id); }

@@ -34,7 +34,7 @@ double DominanceCurves::ContactEnvelope::At(double position_ms) const {
 }
 
 DominanceCurves::DominanceCurves(const VisemeTargets& targets, const DominanceReach& reach,
-                                 const GestureNumbers& sizes)
+                                 const MovementNumbers& sizes)
     : reach_(reach), contact_(sizes.contact) {
   VisemeTarget rest;
   rest.pose = targets.rest;

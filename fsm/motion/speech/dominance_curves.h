@@ -29,7 +29,7 @@ class DominanceCurves {
  public:
   /// `sizes`: gestures.txt.
   DominanceCurves(const VisemeTargets& targets, const DominanceReach& reach,
-                  const GestureNumbers& sizes);
+                  const MovementNumbers& sizes);
   MouthPose At(double position_ms) const;
 
  private:
@@ -48,7 +48,7 @@ class DominanceCurves {
 
   std::vector<Sound> sounds_;  // in order of time; the first and the last are rest and unbounded
   DominanceReach reach_;
-  GestureNumbers::Contact contact_;
+  MovementNumbers::Contact contact_;
   double longest_reach_ms_ = 0;
 };
 

@@ -19,7 +19,7 @@ double Bump(const auto& row, double ms, double beat_ms) {
 
 }  // namespace
 
-SpeechGestures::SpeechGestures(const VisemeTargets& targets, const GestureNumbers& sizes,
+SpeechGestures::SpeechGestures(const VisemeTargets& targets, const MovementNumbers& sizes,
                                std::uint64_t seed)
     : seed_(seed), length_ms_(targets.length_ms), sizes_(sizes) {
   FindBeats(targets);
@@ -73,7 +73,7 @@ void SpeechGestures::FindBeats(const VisemeTargets& targets) {
                            (i + 1 == beats_.size() || beats_[i + 1].nod <= beats_[i].nod);
     const double chance =
         0.5 + 0.5 * RandomAt(seed_, RandomStream::kBrow, static_cast<std::int64_t>(i));
-    const GestureNumbers::Brow& brow = sizes_.brow;
+    const MovementNumbers::Brow& brow = sizes_.brow;
     if (!strongest || chance < brow.skip_chance || beats_[i].peak_ms - last < brow.min_interval_ms)
       continue;
     beats_[i].brow = std::clamp(beats_[i].nod * brow.height.At(chance), 0.0, 1.0);

@@ -21,7 +21,7 @@ namespace fsm {
 class SpeechGestures {
  public:
   /// `sizes`: gestures.txt.
-  SpeechGestures(const VisemeTargets& targets, const GestureNumbers& sizes, std::uint64_t seed);
+  SpeechGestures(const VisemeTargets& targets, const MovementNumbers& sizes, std::uint64_t seed);
 
   /// Relative to the greatest angles of the table, about -1..1.
   struct HeadGesture {
@@ -53,7 +53,7 @@ class SpeechGestures {
 
   std::uint64_t seed_;
   double length_ms_;
-  GestureNumbers sizes_;
+  MovementNumbers sizes_;
   std::vector<Beat> beats_;
   std::vector<Phrase> phrases_;
 };

@@ -167,7 +167,7 @@ double SpeechMotion::BlinkAt(vm::Time t) const {
     shut = std::max(shut, LidsAt(tables_.motions.blinks.front(), t - start));
   };
   const Utterance& last = utterances_.back();
-  const GestureNumbers::EndBlink& end = tables_.gestures.end_blink;
+  const MovementNumbers::EndBlink& end = tables_.gestures.end_blink;
   if (at_end && RandomAt(seed_, RandomStream::kEndBlink, utterance_count_) < end.threshold) {
     blink(last.stopped.value_or(EndOf(last)) +
           FromMs(end.delay_ms.At(RandomAt(seed_, RandomStream::kEndBlinkTime, utterance_count_))));

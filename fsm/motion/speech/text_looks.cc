@@ -95,13 +95,13 @@ double TimeOfShare(double share, const VisemeTargets& targets, double near_ms) {
 
 }  // namespace
 
-double TimedLook::At(double position_ms, const GestureNumbers& sizes) const {
+double TimedLook::At(double position_ms, const MovementNumbers& sizes) const {
   const double rise = SmootherStep((position_ms - start_ms) / sizes.look.rise_ms);
   return rise * (1 - SmootherStep((position_ms - end_ms) / sizes.look.fall_ms));
 }
 
 std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
-                               const VisemeTargets& targets, const GestureNumbers& sizes) {
+                               const VisemeTargets& targets, const MovementNumbers& sizes) {
   const std::string lowered = vm::LowerCase(WithoutMarkup(text));
   const double letters = Letters(lowered);
   std::vector<TimedLook> timed;

@@ -16,7 +16,7 @@ struct TimedLook {
   double start_ms = 0, end_ms = 0;
 
   /// Returns the strength, 0..1, which fades in and out.
-  double At(double position_ms, const GestureNumbers& sizes) const;
+  double At(double position_ms, const MovementNumbers& sizes) const;
 };
 
 /// Returns the looks of a text that is spoken as `targets`, each at most once per sentence;
@@ -24,6 +24,6 @@ struct TimedLook {
 /// from the number of letters before it, and moved to the nearest pause of 110 ms or more.
 /// `sizes`: gestures.txt. Lifetime: `cues` outlives the result.
 std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
-                               const VisemeTargets& targets, const GestureNumbers& sizes);
+                               const VisemeTargets& targets, const MovementNumbers& sizes);
 
 }  // namespace fsm

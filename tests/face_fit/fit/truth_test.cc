@@ -255,7 +255,7 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
       const Mask figure = FigureOf(truth.Photo(turn));
       const auto corrected = CorrectDepthByProfile(figure, front);
       ASSERT_TRUE(corrected) << turn;
-      EXPECT_EQ(FindProfile(front.head, figure)->towards == SideEdge::kRight, turn > 0);
+      EXPECT_EQ(FindProfile(front.head, figure)->towards == PhotoEdge::kRight, turn > 0);
       // The profile is searched where the network's points cannot be compared, not where they show
       // another person. Of one of these heads they can be.
       const auto turned = FitSidePose(*networks_, front.head, SideOf(truth.Photo(turn)));

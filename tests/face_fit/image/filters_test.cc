@@ -56,7 +56,7 @@ TEST(FiltersTest, OrientationsOfExifAreSetUpright) {
   for (std::uint8_t v = 1; v <= 6; ++v) image.rgba.insert(image.rgba.end(), {v, v, v, 255});
   const auto reds = [&](int orientation) {
     std::vector<int> out;
-    const fsm::Image turned = Turned(image, orientation);
+    const fsm::Image turned = OrientedByExif(image, orientation);
     EXPECT_EQ(turned.width, orientation < 5 ? 3 : 2);
     for (std::size_t i = 0; i < turned.rgba.size(); i += 4) out.push_back(turned.rgba[i]);
     return out;

@@ -43,7 +43,7 @@ TEST(ExifTest, DamagedBlocksSayUpright) {
 TEST(PhotoTest, TurningBySixPutsTheLeftColumnOnTop) {
   fsm::Image image{.width = 2, .height = 3, .rgba = {}};
   for (std::uint8_t i = 0; i < 6; ++i) image.rgba.insert(image.rgba.end(), {i, i, i, 255});
-  const fsm::Image turned = Turned(image, 6);  // the camera was held turned to the left
+  const fsm::Image turned = OrientedByExif(image, 6);  // the camera was held turned to the left
   ASSERT_EQ(turned.width, 3);
   const std::uint8_t expected[] = {4, 2, 0, 5, 3, 1};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(turned.rgba[4 * i], expected[i]) << i;

@@ -10,7 +10,7 @@ namespace {
 
 TEST(PlaneTest, ALineGoesOnBeyondItsEndsAtTheirHeight) {
   constexpr std::array<glm::vec2, 3> kLine = {{{0, 1}, {2, 5}, {4, 3}}};
-  const auto height = [&](float x) { return HeightAt<glm::vec2>(kLine, x); };
+  const auto height = [&](float x) { return LineYAt<glm::vec2>(kLine, x); };
   EXPECT_FLOAT_EQ(height(1), 3);
   EXPECT_FLOAT_EQ(height(2), 5);
   EXPECT_FLOAT_EQ(height(3.5F), 3.5F);
@@ -20,8 +20,8 @@ TEST(PlaneTest, ALineGoesOnBeyondItsEndsAtTheirHeight) {
 
 TEST(PlaneTest, TwoPointsOverEachOtherHaveAHeight) {
   constexpr std::array<glm::vec2, 2> kUpright = {{{1, 0}, {1, 8}}};
-  EXPECT_FLOAT_EQ(HeightAt<glm::vec2>(kUpright, 0), 0);
-  EXPECT_FLOAT_EQ(HeightAt<glm::vec2>(kUpright, 2), 8);
+  EXPECT_FLOAT_EQ(LineYAt<glm::vec2>(kUpright, 0), 0);
+  EXPECT_FLOAT_EQ(LineYAt<glm::vec2>(kUpright, 2), 8);
 }
 
 TEST(PlaneTest, ASegmentIsFarFromWhatLiesBeyondItsEnds) {

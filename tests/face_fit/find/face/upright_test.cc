@@ -23,7 +23,7 @@ TEST_F(UprightTest, APhotoThatLiesIsSetUpright) {
   const auto photo = ReadPhoto(path);
   ASSERT_TRUE(photo) << photo.error().text;
   for (const auto& [lying, upright] : {std::pair(1, 1), {6, 8}, {8, 6}, {3, 3}}) {
-    const UprightPhoto found = SetUpright(*networks_, Turned(*photo, lying));
+    const UprightPhoto found = SetUpright(*networks_, OrientedByExif(*photo, lying));
     EXPECT_EQ(found.orientation, upright) << lying;
     EXPECT_EQ(found.image.rgba, photo->rgba) << lying;
     ASSERT_EQ(found.faces.size(), 1U) << lying;
@@ -38,7 +38,7 @@ TEST_F(UprightTest, AGroupWhoseLargestFaceLeansToOneSideStaysAsItIs) {
                                        {"pygmalion", 10, 0, 100, 200, 380},
                                        {"baucis", -10, -5, 1150, 200, 380}});
   EXPECT_EQ(SetUpright(*networks_, photo).orientation, 1);
-  EXPECT_EQ(SetUpright(*networks_, Turned(photo, 6)).orientation, 8);
+  EXPECT_EQ(SetUpright(*networks_, OrientedByExif(photo, 6)).orientation, 8);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "face_fit/bake/turned_view_blend.h"
+#include "face_fit/bake/side_photo_blend.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace facefit {
 namespace {
 
 /// The built-in head in a photo from the front and in one from its left side, as large.
-class TurnedViewBlendTest : public NetworkTest {
+class SidePhotoBlendTest : public NetworkTest {
  protected:
   static constexpr int kSide = 700;
   static constexpr std::uint8_t kSkin = 120, kWhite = 250;
@@ -59,20 +59,20 @@ class TurnedViewBlendTest : public NetworkTest {
   }
 
   FittedHead fitted_;
-  TurnedView view_;
+  PosedSidePhoto view_;
   SkinTexels texels_;
   TexelProjections front_;
   SkinMap map_;
 };
 
-TEST_F(TurnedViewBlendTest, SkinThatOnlyTheSidePhotoShowsTakesItsColours) {
+TEST_F(SidePhotoBlendTest, SkinThatOnlyTheSidePhotoShowsTakesItsColours) {
   Fill(view_.figure.colours, [](glm::vec2) -> std::uint8_t { return 180; });
-  BlendTurnedView(fitted_, view_, texels_, front_, map_);
+  BlendSidePhoto(fitted_, view_, texels_, front_, map_);
   EXPECT_EQ(Brightest(), 180) << "no skin is seen in both, so the light is not changed";
   EXPECT_GT(std::ranges::max(map_.coverage.values), 0.9F);
 }
 
-TEST_F(TurnedViewBlendTest, WhatTheSidePhotoShowsBetweenLidsIsNotPaintedOnTheirRims) {
+TEST_F(SidePhotoBlendTest, WhatTheSidePhotoShowsBetweenLidsIsNotPaintedOnTheirRims) {
   const PhotoOpenings front_openings(FaceIn(fitted_.pose), fitted_.pose.PixelsPerMm());
   for (std::size_t i = 0; i < front_.values.size(); ++i) {
     if (!front_[i] || front_[i]->facing < 0.3F) continue;
@@ -83,7 +83,7 @@ TEST_F(TurnedViewBlendTest, WhatTheSidePhotoShowsBetweenLidsIsNotPaintedOnTheirR
   const PhotoOpenings openings(view_.face, view_.pose.PixelsPerMm());
   Fill(view_.figure.colours,
        [&](glm::vec2 p) { return openings.SkinShare(p) < 1 ? kWhite : kSkin; });
-  BlendTurnedView(fitted_, view_, texels_, front_, map_);
+  BlendSidePhoto(fitted_, view_, texels_, front_, map_);
   // Between a pixel of the eye and one of the skin colours are mixed.
   EXPECT_LT(Brightest(), (kSkin + kWhite) / 2);
 }

@@ -1,4 +1,4 @@
-#include "face_fit/bake/turned_view_blend.h"
+#include "face_fit/bake/side_photo_blend.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -40,8 +40,8 @@ glm::vec3 GainToFront(const SkinTexels& texels, const TexelProjections& front,
 
 }  // namespace
 
-void BlendTurnedView(const FittedHead& fitted, const TurnedView& view, const SkinTexels& texels,
-                     const TexelProjections& front, SkinMap& map) {
+void BlendSidePhoto(const FittedHead& fitted, const PosedSidePhoto& view, const SkinTexels& texels,
+                    const TexelProjections& front, SkinMap& map) {
   // The view counts on its own side only. The far cheek, which the nose may hide, is left out by
   // across_mm of the table, so that occlusion need not be computed.
   const TexelProjections side = ProjectTexels(fitted, texels, view.pose);
