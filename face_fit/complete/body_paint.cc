@@ -20,7 +20,7 @@ glm::vec3 ClothColour(const Canvas& canvas, const PhotoEdges& edges, const fsm::
     if (cloth) sum += glm::vec4(sample.colour, 1);
   };
   for (int x = 0; x < edges.width(); ++x) add(edges.bottom(x));
-  for (const PhotoEdge side : kSideEdges) {
+  for (const PhotoEdge side : kPhotoEdges) {
     if (!attachments[side].shoulder_slope) continue;
     for (int y = static_cast<int>(attachments[side].row); y < edges.height(); ++y) {
       add(edges.side(side, y));
@@ -53,7 +53,7 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const fsm::F
   for (int x = 0; x < edges.width(); ++x) {
     AddDifference(edges.bottom(x), {static_cast<float>(x) + 0.5F, size.y}, below_);
   }
-  for (const PhotoEdge side : kSideEdges) {
+  for (const PhotoEdge side : kPhotoEdges) {
     const BustAttachment& attachment = shape.attachments()[side];
     for (int y = 0; y < edges.height(); ++y) {
       const glm::vec2 pixel(side == PhotoEdge::kLeft ? 0 : size.x, static_cast<float>(y) + 0.5F);

@@ -67,7 +67,7 @@ BodyShape::BodyShape(const Canvas& canvas, const PhotoEdges& edges, const Mask& 
     : canvas_(canvas),
       bust_(std::move(bust)),
       axis_(bust_.axis - static_cast<float>(canvas.photo_origin.x)) {
-  for (const PhotoEdge side : kSideEdges) {
+  for (const PhotoEdge side : kPhotoEdges) {
     attachments_[side] = AttachmentOf(canvas, edges, opacity, bust_, axis_, side);
   }
 }

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "face_fit/image/side_edge.h"
+#include "face_fit/image/photo_edge.h"
 
 namespace facefit {
 

@@ -47,7 +47,7 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const fsm::I
       sides_{.right = SpanOf(PhotoEdge::kRight), .left = SpanOf(PhotoEdge::kLeft)} {
   const auto& look = PhotoLook().hair;
   const float most = look.bulge_most_mm * canvas.pixels_per_mm;
-  for (const PhotoEdge side : kSideEdges) {
+  for (const PhotoEdge side : kPhotoEdges) {
     bulge_px_[side] = std::min(look.bulge_by_length * sides_[side].Length(), most);
     // Where the upper edge cuts hair up to a corner, the dome extends over the bulge beside it.
     if (bulge_px_[side] <= 0 || sides_[side].from > 1 || top_.Length() <= 0) continue;

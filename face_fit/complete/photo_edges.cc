@@ -220,7 +220,7 @@ std::vector<EdgeSample> ReadSide(const EdgeReader& reader, PhotoEdge side, float
 glm::vec3 HairBeside(const PerPhotoEdge<std::vector<EdgeSample>>& sides, float chin_row,
                      glm::vec3 skin_colour) {
   glm::vec4 sum(0);
-  for (const PhotoEdge side : kSideEdges) {
+  for (const PhotoEdge side : kPhotoEdges) {
     const auto& samples = sides[side];
     for (std::size_t y = 0; y < samples.size() && static_cast<float>(y) < chin_row; ++y) {
       if (samples[y].kind != EdgeKind::kNothing) sum += glm::vec4(samples[y].colour, 1);
@@ -248,7 +248,7 @@ PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure,
       glm::min(glm::ivec2(MmToPixels(PhotoLook().edge.band_mm, chin.pixels_per_mm)), size);
   bottom_ = ReadBottom(reader, chin, size, band.y);
   top_ = ReadTop(reader, size, band.y);
-  for (const PhotoEdge side : kSideEdges) {
+  for (const PhotoEdge side : kPhotoEdges) {
     sides_[side] = ReadSide(reader, side, chin.pixel.y, size, band.x);
   }
   hair_ = classifier.hair() ? *classifier.hair() : HairBeside(sides_, chin.pixel.y, skin_colour);

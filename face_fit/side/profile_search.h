@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "face_fit/fit/fitted_head.h"
+#include "face_fit/image/photo_edge.h"
 #include "face_fit/image/raster.h"
-#include "face_fit/image/side_edge.h"
 
 namespace facefit {
 

@@ -44,7 +44,7 @@ TEST_F(BodyPaintTest, AShoulderThatASideCutsGoesOnAtItsFall) {
   const PhotoEdges edges = Edges();
   const BodyShape shape = Shape(edges);
   EXPECT_TRUE(shape.CutsShoulder());
-  for (const PhotoEdge side : kSideEdges) {
+  for (const PhotoEdge side : kPhotoEdges) {
     EXPECT_NEAR(shape.attachments()[side].row, Shoulder(kPhoto / 2), 2);
     EXPECT_NEAR(shape.attachments()[side].shoulder_slope.value_or(0), 0.3F, 0.05F);
   }

@@ -8,7 +8,7 @@ namespace facefit {
 
 /// The left and the right edge of a photo, as its viewer sees them.
 enum class PhotoEdge { kLeft, kRight };
-inline constexpr std::array kSideEdges{PhotoEdge::kLeft, PhotoEdge::kRight};
+inline constexpr std::array kPhotoEdges{PhotoEdge::kLeft, PhotoEdge::kRight};
 
 /// A value for the left and for the right edge of a photo.
 template <typename T>
