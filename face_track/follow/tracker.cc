@@ -239,7 +239,7 @@ std::vector<FaceLine> Tracker::Finish() {
   // noise, the mean of the half of them that are.
   std::vector<std::size_t> usual(doings.size());
   std::iota(usual.begin(), usual.end(), 0U);
-  std::ranges::stable_sort(usual, {}, [&](std::size_t i) { return doings[i].miss; });
+  std::ranges::sort(usual, {}, [&](std::size_t i) { return std::pair(doings[i].miss, i); });
   usual.resize(noise_filter_.IsNoisy() ? (usual.size() + 1) / 2 : 1);
   std::vector<ImageFit::View> views;
   for (const std::size_t i : usual) views.push_back({waiting_[i].look, doings[i].pose});
