@@ -24,8 +24,8 @@ constexpr float kMotion = 8;
 constexpr float kGain = 0.2F;  // of a new measurement of the noise
 
 constexpr int kBlock = 16, kSearch = 6;  // pixels: what is followed, and how far
-constexpr float kStay =
-    0.15F;  // in deviations of the noise: a block that moves fits better by that
+// In deviations of the noise: a block that moves fits better by that.
+constexpr float kStay = 0.15F;
 
 // With 15 one of two heads was found better, but of what moves more was left behind.
 constexpr float kMostPictures = 7;

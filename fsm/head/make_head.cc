@@ -240,18 +240,18 @@ HeadAsset AssetOf(Identity own) {
   BuildCloth(identity, parts.mesh);
   AddBrowsAndFolds(from, front, parts);
   parts.Add(BuildStubble(front, SkinPainter(identity, from.eye), identity));
-  const bool tied = std::holds_alternative<CombedStyle>(identity.hair);
+  const bool combed = std::holds_alternative<CombedStyle>(identity.hair);
   const bool crop = std::holds_alternative<CropStyle>(identity.hair);
-  parts.Add(crop   ? CroppedHairline(identity, parts.mesh)
-            : tied ? CombedHairline(identity, parts.mesh)
-                   : LongHairline(identity, parts.mesh));
+  parts.Add(crop     ? CroppedHairline(identity, parts.mesh)
+            : combed ? CombedHairline(identity, parts.mesh)
+                     : LongHairline(identity, parts.mesh));
   BuildLashes(from.eye, identity, false, parts.mesh);
   AddEyesAndMouth(from, parts.mesh);
-  if (crop || tied) BuildEars(identity, parts.mesh);  // long hair covers them
+  if (crop || combed) BuildEars(identity, parts.mesh);  // long hair covers them
   FormedHead head(
       HeadForm(from.eye, from.mouth, from.sliders, nullptr, {}, parts.mesh, identity.eyes),
       parts.mesh);
-  if (tied) {
+  if (combed) {
     head.hangs_from = BuildCombedHair(identity, head.mesh);
   } else if (crop) {
     BuildCroppedHair(identity, head.mesh);

@@ -76,6 +76,27 @@ TEST(HeadFormTest, ProfileHasItsDepths) {
   }
 }
 
+TEST(HeadFormTest, SkinBelowTheInnerCornerOfAnEyeHasNoTrench) {
+  // Downward from the lid's margin the skin comes forward to the cheek.
+  const Head& head = GenericHead();
+  std::map<int, float> front;  // z by y in whole millimetres, negative so that lower is later
+  for (const auto& part : head.surface().parts) {
+    if (part.material != Material::kSkin) continue;
+    for (const std::uint32_t v : head.surface().Corners(part)) {
+      const glm::vec3 p = head.rig().data().rest[v];
+      if (std::abs(std::abs(p.x) - 20.1f) > 0.8f || p.y < 9 || p.y > 17.2f) continue;
+      auto [at, is_new] = front.try_emplace(-static_cast<int>(p.y), p.z);
+      at->second = std::max(at->second, p.z);
+    }
+  }
+  ASSERT_GT(front.size(), 4u);
+  float foremost = 0;
+  for (const auto& [down, z] : front) {
+    EXPECT_GT(z, foremost - 1.5f) << "y " << -down;
+    foremost = std::max(foremost, z);
+  }
+}
+
 TEST(HeadFormTest, UnknownNamesAreRefused) {
   EXPECT_THROW(GenericHead().Landmark("third_eye"), std::out_of_range);
   try {

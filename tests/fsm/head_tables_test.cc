@@ -336,17 +336,19 @@ TEST(HeadTablesTest, AShavedBeardsHairsLieBelowTheNoseAndNotOnTheLips) {
   }
 }
 
+float LowestHair(const Identity& identity) {
+  const auto head = MakeSymmetricHead(identity);
+  float low = 100;
+  for (const auto& part : head->surface().parts) {
+    if (part.material != Material::kHair) continue;
+    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k)
+      low = std::min(low, head->rig().data().rest[head->surface().indices[k]].y);
+  }
+  return low;
+}
+
 TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
-  const auto lowest = [](const char* row) {
-    const auto head = MakeSymmetricHead(Changed("galatea", {row}));
-    float low = 0;
-    for (const auto& part : head->surface().parts) {
-      if (part.material != Material::kHair) continue;
-      for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k)
-        low = std::min(low, head->rig().data().rest[head->surface().indices[k]].y);
-    }
-    return low;
-  };
+  const auto lowest = [](const char* row) { return LowestHair(Changed("galatea", {row})); };
   // Single locks come a little lower than the rest.
   const float usual = lowest("hair long 0 0 -84 -112 0"),
               longer = lowest("hair long 0 0 -84 -150 0");
@@ -360,16 +362,7 @@ TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
 }
 
 TEST(HeadTablesTest, CombedHairEndsWhereItsRowSays) {
-  const auto lowest = [](const char* row) {
-    const auto head = MakeSymmetricHead(Changed("zhenzhen", {row}));
-    float low = 100;
-    for (const auto& part : head->surface().parts) {
-      if (part.material != Material::kHair) continue;
-      for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k)
-        low = std::min(low, head->rig().data().rest[head->surface().indices[k]].y);
-    }
-    return low;
-  };
+  const auto lowest = [](const char* row) { return LowestHair(Changed("zhenzhen", {row})); };
   EXPECT_NEAR(lowest("hair tied 4 7 58 -125 0"), -140, 12);
   EXPECT_NEAR(lowest("hair tied 4 7 58 -70 0"), -82, 12);
   EXPECT_GT(lowest("hair swept 10 19 3 0"), -60) << "the nape";
