@@ -4,14 +4,15 @@
 //   vdm_bench NET --takes FILE --voices rms,british-f3
 // With --triphones FILE the mouth is that of the triphones in place of NET's; for takes by the
 // times of the engine and, for a voice that NET and the triphones have not learned, by those that
-// the aligner finds with the text. With --guess the mouth is the text-driven one of the phonemes
-// that the aligner guesses without the text, for people and the everyday sentences alone.
+// the aligner finds with the text. With --whole the words of each recording are recognised first,
+// as vdm does with files.
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -27,6 +28,7 @@
 #include "vdm/mouth/mouth_tracker.h"
 #include "vdm/mouth/speaker_learner.h"
 #include "vdm/net/sound_classes.h"
+#include "vdm/recording/recording_reader.h"
 #include "vdm/train/corpus.h"
 #include "vdm/train/distortion.h"
 #include "vdm/train/score.h"
@@ -47,11 +49,13 @@ T OrThrow(vm::Result<T> result) {
 struct Bench {
   vdm::MouthNet net;
   std::optional<vdm::TriphoneModel> triphones{};
-  bool guess = false;
+  std::unique_ptr<vdm::RecordingReader>
+      reader{};  // of words before the sound is heard; may be none
   fsm::MotionTables tables;
   std::unique_ptr<fsm::Head> head;
   double work_s = 0, sound_s = 0;
-  float warp = 1;  // of the speaker
+  float warp = 1;         // of the speaker
+  std::size_t every = 1;  // of the takes, so many-th
 
   double GapMm(const std::array<float, 17>& mouth, float seal, float tongue) const {
     fsm::FaceState state;
@@ -71,16 +75,9 @@ struct Bench {
     return gaps;
   }
 
-  /// The gap at each hop of a recording: of the mouth that is measured.
-  std::vector<double> Gaps(srm::PhoneAligner& aligner, const std::vector<std::int16_t>& samples,
-                           const vm::PhonemeList& phonemes) {
-    if (!guess) return Gaps(samples, phonemes);
-    const auto count = static_cast<std::size_t>(static_cast<double>(samples.size()) / 16 / HopMs());
-    return TrueGaps(OrThrow(aligner.Guess(samples)).phonemes, count);
-  }
-
   /// The gap at each hop of a sound, as it comes out of a stream.
   std::vector<double> Gaps(std::vector<std::int16_t> samples) {
+    const auto words = reader ? reader->Read(samples) : vdm::RecordedMouth{};
     const std::clock_t start = std::clock();
     vdm::MouthTracker tracker(net, warp);
     samples.resize(samples.size() + tracker.ahead_samples() + tracker.hop_samples());
@@ -93,8 +90,10 @@ struct Bench {
     work_s += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     sound_s += static_cast<double>(samples.size()) / 16000;
     std::vector<double> gaps;
-    for (const auto& [sample, frame] : moments)
+    for (auto& [sample, frame] : moments) {
+      words.Blend(sample, frame);
       gaps.push_back(GapMm(frame.mouth, frame.seal, frame.tongue));
+    }
     return gaps;
   }
   double HopMs() const {
@@ -145,16 +144,20 @@ struct Row {
   }
   void Print(const std::string& who, double hop_ms) const {
     std::cout << fmt::format(
-        "| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} % of {} | {:.1f} % | {:+.0f} |\n", who,
-        score.correlation(), score.rms_mm(), score.size(), 100 * score.closures_seen(),
-        score.closures(), 100 * score.shut_by_mistake(), LagMs(hop_ms));
+                     "| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} % of {} | {:.1f} % | {:+.0f} |\n",
+                     who, score.correlation(), score.rms_mm(), score.size(),
+                     100 * score.closures_seen(), score.closures(), 100 * score.shut_by_mistake(),
+                     LagMs(hop_ms))
+              << std::flush;
   }
 };
 
 void TestVoices(Bench& bench, const std::string& takes, const std::vector<std::string>& voices) {
   std::map<std::string, Row> rows;
+  std::size_t number = 0;
   for (const vdm::Take& take : OrThrow(vdm::LoadCorpus(takes))) {
     if (std::ranges::find(voices, take.voice) == voices.end()) continue;
+    if (number++ % bench.every != 0) continue;
     auto gaps = bench.Gaps(take.samples, take.phonemes);
     auto truth = bench.TrueGaps(take.phonemes, gaps.size());
     for (Row* row : {&rows[take.voice], &rows["~ all of these voices"]}) {
@@ -256,7 +259,7 @@ void TestAlignedVoice(Bench& bench, const std::string& voice) {
       std::cerr << "vdm_bench: '" << text << "': " << aligned.error().text << std::endl;
       continue;
     }
-    auto gaps = bench.Gaps(*aligner, speech.samples, aligned->phonemes);
+    auto gaps = bench.Gaps(speech.samples, aligned->phonemes);
     auto truth = bench.TrueGaps(speech.plan.phonemes, gaps.size());
     row.Add(std::move(gaps), std::move(truth), bench.HopMs(), speech.plan.phonemes);
   }
@@ -277,7 +280,7 @@ void TestPeople(Bench& bench) {
         std::cerr << "vdm_bench: " << name << ": " << aligned.error().text << std::endl;
         continue;
       }
-      auto gaps = bench.Gaps(*aligner, samples, aligned->phonemes);
+      auto gaps = bench.Gaps(samples, aligned->phonemes);
       auto truth = bench.TrueGaps(aligned->phonemes, gaps.size());
       row.Add(gaps, truth, bench.HopMs(), aligned->phonemes);
       all.Add(std::move(gaps), std::move(truth), bench.HopMs(), aligned->phonemes);
@@ -287,9 +290,34 @@ void TestPeople(Bench& bench) {
   if (all.score.instants() > 0) all.Print("people, all", bench.HopMs());
 }
 
+/// Lines of FILE, LANGUAGE and TEXT with tabs between, files beside the list, as vdm_train --people
+/// reads; the English ones.
+void TestRecordings(Bench& bench, const std::string& list) {
+  const auto aligner = Aligner();
+  if (!aligner) return;
+  Row row;
+  std::ifstream file(list);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t tab = line.find('\t'), second = line.find('\t', tab + 1);
+    if (second == std::string::npos || line.substr(tab + 1, second - tab - 1) != "en") continue;
+    const auto folder = std::filesystem::path(list).parent_path();
+    const auto samples = OrThrow(sound::ReadSound((folder / line.substr(0, tab)).string()));
+    const auto aligned = aligner->Align(samples, line.substr(second + 1));
+    if (!aligned) {
+      std::cerr << "vdm_bench: " << line << ": " << aligned.error().text << std::endl;
+      continue;
+    }
+    auto gaps = bench.Gaps(samples, aligned->phonemes);
+    auto truth = bench.TrueGaps(aligned->phonemes, gaps.size());
+    row.Add(std::move(gaps), std::move(truth), bench.HopMs(), aligned->phonemes);
+  }
+  row.Print(list, bench.HopMs());
+}
+
 void TestNoSpeech(Bench& bench) {
   std::size_t open = 0, all = 0, sounds = 0, moved = 0;
-  for (std::uint64_t n = 0; n < 100; ++n, ++sounds) {
+  // Words of noise take the recogniser long.
+  for (std::uint64_t n = 0; n < (bench.reader ? 25 : 100); ++n, ++sounds) {
     const auto gaps = bench.Gaps(vdm::NoSpeech(vdm::Dice(0xBE4C).For(n)));
     const auto now =
         static_cast<std::size_t>(std::ranges::count_if(gaps, [](double mm) { return mm >= 1; }));
@@ -314,15 +342,19 @@ int main(int argc, char** argv) {
   app.add_option("--voices", voices, "Which of its voices")->delimiter(',');
   app.add_option("--triphones", triphones,
                  "Triphones of vdm_train --triphones, in place of the net");
-  bool guess = false;
-  app.add_flag("--guess", guess, "The mouth of phonemes guessed without the text");
+  bool whole = false;
+  std::size_t every = 1;
+  app.add_option("--every", every, "Only each so many-th of the takes")->check(CLI::PositiveNumber);
+  app.add_flag("--whole", whole, "The words of each recording are recognised before it is heard");
   app.add_flag("--speakers", speakers, "Only what meeting each of these voices first brings");
+  std::string recordings;
+  app.add_option("--recordings", recordings,
+                 "Recordings of people with their text (a list as for vdm_train --people)");
   CLI11_PARSE(app, argc, argv);
   try {
     std::ifstream file(net);
     const std::string text(std::istreambuf_iterator<char>(file), {});
     Bench bench{.net = OrThrow(vdm::ParseMouthNet(net, text)),
-                .guess = guess,
                 .tables = OrThrow(fsm::MotionTables::Load()),
                 .head = fsm::MakeHead("galatea")};
     if (!triphones.empty()) {
@@ -330,6 +362,8 @@ int main(int argc, char** argv) {
       const std::string said(std::istreambuf_iterator<char>(model), {});
       bench.triphones = OrThrow(vdm::ParseTriphones(triphones, said));
     }
+    bench.every = every;
+    if (whole) bench.reader = OrThrow(vdm::RecordingReader::Open());
     std::cout
         << "| voice | r of the gap | rms mm | size | closures seen | shut by mistake | lag ms |\n"
            "| --- | --- | --- | --- | --- | --- | --- |\n";
@@ -338,9 +372,10 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (!takes.empty()) TestVoices(bench, takes, voices);
+    if (!recordings.empty()) TestRecordings(bench, recordings);
     TestAlignedVoice(bench, "rms");
     TestPeople(bench);
-    if (bench.triphones || guess) return 0;
+    if (bench.triphones) return 0;
     TestNoSpeech(bench);
     std::cout << fmt::format("real-time factor {:.4f}\n", bench.work_s / bench.sound_s);
   } catch (const std::exception& error) {

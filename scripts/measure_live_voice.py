@@ -5,7 +5,7 @@
 
 A recording (16 kHz, mono, 16 bit) is said again and again, with a second of silence between, at its
 own pace into a pipe that vdm hears. Each minute: by how much the mouth that the face is told moves
-behind the sound (the lag at which the openings are most like those of `vdm FILE.wav`, which should be
+behind the sound (the lag at which the openings are most like those of `vdm FILE.wav --no-words`, which should be
 the slot Delay), how alike they are, frames that were told after their time, and vdm's memory. Fails
 if the lag of a minute differs from that of another by more than 20 ms, or memory grows by more than
 a tenth and 4 MiB from the first minute to the last.
@@ -26,8 +26,8 @@ MOST_DRIFT_MS = 20
 
 
 def openings_of(program, path):
-    """What `vdm FILE.wav` says, an opening each 10 ms."""
-    lines = subprocess.run([program, path], capture_output=True, text=True, check=True).stdout
+    """What `vdm FILE.wav --no-words` says, an opening each 10 ms."""
+    lines = subprocess.run([program, path, "--no-words"], capture_output=True, text=True, check=True).stdout
     return [float(line.split(",")[2]) for line in lines.splitlines()[1:]]
 
 

@@ -7,6 +7,7 @@
 #include "ssm/process/voice_process.h"
 #include "ssm/voice/wav_file.h"
 #include "vdm/mouth/mouth_tracker.h"
+#include "vdm/recording/recording_reader.h"
 
 namespace filmdub {
 namespace {
@@ -39,10 +40,12 @@ vm::Result<NewSpeech> SpeechOfSound(const std::string& sound, fsm::MotionTables 
       vdm::ShippedNet(vdm::CanMakeFeatures(vdm::FeatureKind::kPhones) ? vdm::FeatureKind::kPhones
                                                                       : vdm::FeatureKind::kMel);
   vdm::MouthTracker tracker(net);
+  const vdm::RecordedMouth words = vdm::ReadWords(*samples);
   const std::size_t length = samples->size();
   samples->resize(length + tracker.ahead_samples() + tracker.hop_samples());
-  for (const auto& moment : tracker.Add(*samples)) {
+  for (auto& moment : tracker.Add(*samples)) {
     if (moment.sample > length) break;
+    words.Blend(moment.sample, moment.frame);
     fsm::MouthPose pose{.seal = std::clamp(moment.frame.seal, 0.0F, 1.0F),
                         .tongue = std::clamp(moment.frame.tongue, 0.0F, 1.0F)};
     std::ranges::copy(moment.frame.mouth, pose.mouth.begin());

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -14,8 +15,10 @@ std::string AsJson(const Alignment& alignment) {
     json["phonemes"].push_back({{"name", phoneme.name}, {"ms", phoneme.duration.count()}});
   }
   for (const HeardWord& word : alignment.words) {
-    json["words"].push_back(
-        {{"text", word.text}, {"start", word.start.count()}, {"end", word.end.count()}});
+    json["words"].push_back({{"text", word.text},
+                             {"start", word.start.count()},
+                             {"end", word.end.count()},
+                             {"confidence", std::round(word.confidence * 1000) / 1000}});
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -10,6 +10,7 @@
 
 #include "sound/sound_file.h"
 #include "srm/align/phone_aligner.h"
+#include "srm/align/speech_guesser.h"
 
 namespace {
 
@@ -23,15 +24,40 @@ struct Options {
   bool progress = false;
 };
 
-vm::Result<std::string> Run(srm::PhoneAligner& aligner, const Options& options,
-                            const std::string& wav, const std::string& text) {
+/// Opened when they are first needed.
+struct Ears {
+  std::string model;
+  std::unique_ptr<srm::PhoneAligner> aligner{};
+  std::unique_ptr<srm::SpeechGuesser> guesser{};
+
+  template <typename Ear>
+  static vm::Result<void> Need(std::unique_ptr<Ear>& ear, const std::string& model) {
+    if (ear) return {};
+    auto opened = Ear::Open(model);
+    if (!opened) return std::unexpected(opened.error());
+    ear = std::move(*opened);
+    return {};
+  }
+  vm::Result<srm::Alignment> Hear(const std::vector<std::int16_t>& samples,
+                                  const std::string& text) {
+    if (text.empty()) {
+      if (auto open = Need(guesser, model); !open) return std::unexpected(open.error());
+      return guesser->Guess(samples);
+    }
+    if (auto open = Need(aligner, model); !open) return std::unexpected(open.error());
+    return aligner->Align(samples, text);
+  }
+};
+
+vm::Result<std::string> Run(Ears& ears, const Options& options, const std::string& wav,
+                            const std::string& text) {
   auto samples = sound::ReadSound(wav);
   if (!samples) return std::unexpected(samples.error());
   if (options.progress) {
     std::cerr << "align: " << wav << ": " << samples->size() / srm::kSampleRateHz << " s"
               << std::endl;
   }
-  auto found = text.empty() ? aligner.Guess(*samples) : aligner.Align(*samples, text);
+  const auto found = ears.Hear(*samples, text);
   if (!found) return std::unexpected(found.error());
   return srm::FormatAlignment(*found, options.format);
 }
@@ -51,12 +77,12 @@ bool ReadJob(const std::string& line, std::string& wav, std::string& text) {
   return true;
 }
 
-void ServeJobs(srm::PhoneAligner& aligner, const Options& options) {
+void ServeJobs(Ears& ears, const Options& options) {
   for (std::string line, wav, text; std::getline(std::cin, line);) {
     if (line.empty()) continue;
     auto answer =
         ReadJob(line, wav, text)
-            ? Run(aligner, options, wav, text)
+            ? Run(ears, options, wav, text)
             : vm::Fail(vm::Errc::kSyntax, "found '" + line.substr(0, 40) +
                                               "', expected {\"wav\": ..., \"text\": ...}");
     if (answer) {
@@ -70,7 +96,7 @@ void ServeJobs(srm::PhoneAligner& aligner, const Options& options) {
   }
 }
 
-int Once(srm::PhoneAligner& aligner, Options options) {
+int Once(Ears& ears, Options options) {
   if (!options.text_file.empty()) {
     std::ifstream file(options.text_file);
     if (!file) {
@@ -80,7 +106,7 @@ int Once(srm::PhoneAligner& aligner, Options options) {
     }
     options.text.assign(std::istreambuf_iterator<char>(file), {});
   }
-  auto answer = Run(aligner, options, options.wav, options.text);
+  auto answer = Run(ears, options, options.wav, options.text);
   if (!answer) {
     std::cerr << "align: " << answer.error().text << std::endl;
     return 1;
@@ -96,7 +122,7 @@ int main(int argc, char** argv) {
   CLI::App app("Finds when each phoneme of a recording is spoken");
   app.set_version_flag("--version", "align (Galatea) " GALATEA_VERSION);
   app.add_option("wav", options.wav, "The recording (any format libsndfile reads)");
-  app.add_option("-t,--text", options.text, "What is said in it; without it, phonemes are guessed");
+  app.add_option("-t,--text", options.text, "What is said in it; without it, words are recognised");
   app.add_option("--text-file", options.text_file, "The same from a file");
   app.add_option("-f,--format", options.format, "pho (name[ms] ...), tsv, json or textgrid");
   app.add_option("--model", options.model, "Folder of the recognition model");
@@ -114,12 +140,13 @@ int main(int argc, char** argv) {
     std::cerr << "align: expected a WAV file or --resident" << std::endl;
     return 1;
   }
-  auto aligner = srm::PhoneAligner::Open(options.model);
-  if (!aligner) {
-    std::cerr << "align: " << aligner.error().text << std::endl;
+  Ears ears{.model = options.model};
+  if (!options.resident) return Once(ears, options);
+  // Without a model no job can be done.
+  if (auto open = Ears::Need(ears.aligner, ears.model); !open) {
+    std::cerr << "align: " << open.error().text << std::endl;
     return 1;
   }
-  if (!options.resident) return Once(**aligner, options);
-  ServeJobs(**aligner, options);
+  ServeJobs(ears, options);
   return 0;
 }

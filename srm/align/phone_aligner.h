@@ -11,14 +11,13 @@ namespace srm {
 
 /// Phonemes of a recording with their times.
 struct Alignment {
-  vm::PhonemeList phonemes{};      ///< flite's names (ah for every neutral vowel), pau; from 0 on
-  std::vector<HeardWord> words{};  ///< none without a text
+  vm::PhonemeList phonemes{};  ///< flite's names (ah for every neutral vowel), pau; from 0 on
+  std::vector<HeardWord> words{};
 };
 
-/// Finds when each phoneme of a recording is spoken. With its text: the pronunciations of the
+/// Finds when each phoneme of a recording whose text is known is spoken: the pronunciations of the
 /// dictionary, or letter-to-sound rules, one after the other, silences between where there are
-/// some. Without: the phonemes that fit best (measured: about half of them are right, the mouth's
-/// shapes more). Times are multiples of 10 ms.
+/// some. Times are multiples of 10 ms.
 /// Thread: one. Errors: kUnavailable (no model), kBadValue (nothing in the text can be said; the
 /// text does not fit the sound at all).
 class PhoneAligner {
@@ -26,7 +25,6 @@ class PhoneAligner {
   static vm::Result<std::unique_ptr<PhoneAligner>> Open(const std::string& model);
   ~PhoneAligner();
   vm::Result<Alignment> Align(const std::vector<std::int16_t>& samples, const std::string& text);
-  vm::Result<Alignment> Guess(const std::vector<std::int16_t>& samples);
 
  private:
   struct Parts;

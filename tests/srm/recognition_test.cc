@@ -224,9 +224,6 @@ TEST(AlignTest, TextThatCannotBeSaidOrDoesNotFitIsAnError) {
   ASSERT_TRUE(aligner);
   const Speech speech = Say("yes");
   EXPECT_FALSE((*aligner)->Align(speech.samples, "..."));
-  auto guess = (*aligner)->Guess(speech.samples);
-  ASSERT_TRUE(guess);
-  EXPECT_GE(guess->phonemes.size(), 3u);
   EXPECT_FALSE(srm::PhoneAligner::Open("/nowhere"));
 }
 
@@ -238,7 +235,7 @@ TEST(AlignFormatTest, EveryFormatHoldsPhonemesAndWords) {
             "0\t100\tphoneme\tpau\n100\t150\tphoneme\thh\n100\t150\tword\thi\n");
   EXPECT_EQ(*srm::FormatAlignment(alignment, "json"),
             "{\"phonemes\":[{\"ms\":100,\"name\":\"pau\"},{\"ms\":50,\"name\":\"hh\"}],"
-            "\"words\":[{\"end\":150,\"start\":100,\"text\":\"hi\"}]}\n");
+            "\"words\":[{\"confidence\":1.0,\"end\":150,\"start\":100,\"text\":\"hi\"}]}\n");
   EXPECT_NE(srm::FormatAlignment(alignment, "textgrid")->find("xmax = 0.15"), std::string::npos);
   EXPECT_FALSE(srm::FormatAlignment(alignment, "xml"));
 }

@@ -64,7 +64,12 @@ class MovementTest : public testing::Test {
               if (name == "raw:hand") return std::make_unique<HandSource>(live_);
               return vm::Fail(vm::Errc::kUnavailable, "there is no microphone");
             },
-            .clock_is_shared = [] { return true; },
+            .clock_is_shared = [this] { return clock_is_shared_; },
+            .read_words =
+                [this](const std::string& path) {
+                  asked_for_ = path;
+                  return words_;
+                },
             .mel = &ShippedNet(FeatureKind::kMel),
             .cepstra = &ShippedNet(FeatureKind::kCepstra),
             .head = &ShippedHeadNet(false),
@@ -113,11 +118,51 @@ class MovementTest : public testing::Test {
 
   vm::VirtualScheduler clock_;
   std::string speakers_folder_;
+  bool clock_is_shared_ = true;
+  RecordedMouth words_;
+  std::string asked_for_;  // the recording whose words were read
   sound::AudioSource::Events live_;
   std::vector<std::pair<vm::Time, vm::Message>> said_;
   std::vector<std::string> errors_;
   std::unique_ptr<MovementModule> module_;
 };
+
+/// The widest jaw of the frames.
+double Widest(const auto& frames) {
+  double widest = 0;
+  for (const auto& frame : frames) widest = std::max(widest, frame.numbers.at(12));
+  return widest;
+}
+
+TEST_F(MovementTest, WordsKnownOfARecordingMoveTheMouth) {
+  words_.text = "never";
+  words_.instants.assign(200, {.trust = 1});  // the mouth at rest
+  Tell("set Input = wav:voice");
+  Tell("prop Mouth.words = AutoOutput");
+  Tell("set Run = START");
+  Run(10s);
+  EXPECT_EQ(asked_for_, "voice");
+  EXPECT_EQ(Count("rep Mouth.words = never"), 1U) << AllSaid();
+  const double by_words = Widest(Frames());
+  said_.clear();
+  words_ = {};
+  Tell("set Input = wav:voice");
+  Run(20s);
+  EXPECT_GT(Widest(Frames()), 1.5 * by_words);
+}
+
+TEST_F(MovementTest, WordsAreNotReadWhereSomebodyWaitsOrANetworkIsAskedFor) {
+  clock_is_shared_ = false;
+  Tell("set Input = wav:voice");
+  Tell("set Run = START");
+  EXPECT_EQ(asked_for_, "");
+  Tell("set Run = STOP");
+  clock_is_shared_ = true;
+  Tell("set Mouth.mode = MEL");
+  Tell("set Input = wav:voice");
+  Tell("set Run = START");
+  EXPECT_EQ(asked_for_, "");
+}
 
 TEST_F(MovementTest, ARecordingMovesTheFaceAndEndsAtRest) {
   Tell("set Input = wav:voice");

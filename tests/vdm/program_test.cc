@@ -62,6 +62,7 @@ class VdmProgramTest : public testing::Test {
   static Track TrackOf(const std::string& file, const std::vector<std::string>& more = {}) {
     std::vector<std::string> argv = {GALATEA_BIN_DIR "/vdm", file};
     argv.insert(argv.end(), more.begin(), more.end());
+    argv.emplace_back("--no-words");
     support::Process program(argv);
     Track track;
     for (const std::string& line : program.ReadAll()) {

@@ -14,6 +14,7 @@
 #include "sound/sources.h"
 #include "vdm/app/track_print.h"
 #include "vdm/core/movement_module.h"
+#include "vdm/recording/recording_reader.h"
 #include "vdm/triphone/phoneme_file.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/runtime/asio_scheduler.h"
@@ -27,7 +28,7 @@ constexpr std::size_t kMaxTriphoneBytes = std::size_t{8} << 20;
 struct Options {
   std::string file, print = "csv", net_file, head_file, emotions_file, speakers_folder;
   std::string phonemes_file, triphones_file;  // for the track of phonemes
-  bool live = false, cepstra = false, mel = false, head = false;
+  bool live = false, cepstra = false, mel = false, head = false, no_words = false;
   std::optional<vdm::MouthNet> net;
   std::optional<vdm::HeadNet> head_net;
   std::optional<vdm::Discriminant> emotions;
@@ -95,7 +96,10 @@ int BeforeStart(Options& options) {
   if (head && head->sounds != 0 && head->sounds != mouth.sounds.size()) {
     throw std::runtime_error("the head's network knows other sounds than the mouth's");
   }
-  std::cout << vdm::PrintTrack(mouth, head, samples, options.print) << std::flush;
+  // Who asks for a network wants to see that one.
+  const bool as_heard = options.no_words || options.net || options.cepstra || options.mel;
+  const auto words = as_heard ? vdm::RecordedMouth{} : vdm::ReadWords(samples);
+  std::cout << vdm::PrintTrack(mouth, head, words, samples, options.print) << std::flush;
   return std::cout ? 0 : 1;
 }
 
@@ -124,6 +128,9 @@ int main(int argc, char** argv) {
                           "The track by the small network of the papers");
              app.add_flag("--mel", options.mel,
                           "The track by mel bands alone, as where pocketsphinx-en-us is missing");
+             app.add_flag("--no-words", options.no_words,
+                          "The track, and recordings on the virtual clock, as live sound moves "
+                          "the mouth: without recognising the words first");
              app.add_option("--net", options.net_file,
                             "A network made by vdm_train in place of the program's own");
              auto* phonemes = app.add_option("--phonemes", options.phonemes_file,
@@ -161,6 +168,11 @@ int main(int argc, char** argv) {
                        return sound::OpenSource(name, clock, io, clock.real());
                      },
                      .clock_is_shared = [&clock] { return !clock.real(); },
+                     .read_words = [&](const std::string& path) -> vdm::RecordedMouth {
+                       const auto samples = sound::ReadSound(path);
+                       return samples && !options.no_words ? vdm::ReadWords(*samples)
+                                                           : vdm::RecordedMouth{};
+                     },
                      .phones = vdm::CanMakeFeatures(vdm::FeatureKind::kPhones)
                                    ? &NetOf(options, vdm::FeatureKind::kPhones)
                                    : nullptr,

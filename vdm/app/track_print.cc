@@ -28,7 +28,8 @@ struct Shown {
 /// All moments up to the sound's end; behind it silence is heard as long as the networks need.
 /// `heard`, if it is given, is called after each moment that was heard.
 std::vector<Shown> Moments(
-    const MouthNet& net, const HeadNet* head, std::span<const std::int16_t> samples,
+    const MouthNet& net, const HeadNet* head, const RecordedMouth& words,
+    std::span<const std::int16_t> samples,
     const std::function<void(const MouthTracker::Moment&, const VoiceManner&)>& heard = {}) {
   MouthTracker tracker(net);
   std::vector<Shown> shown;
@@ -41,7 +42,8 @@ std::vector<Shown> Moments(
                VoiceManner::kHeadLate);
   const bool mouth_alone = head == nullptr && !heard;
   if (!mouth_alone) manner.Add(sound);
-  for (const MouthTracker::Moment& moment : tracker.Add(sound)) {
+  for (MouthTracker::Moment& moment : tracker.Add(sound)) {
+    words.Blend(moment.sample, moment.frame);
     if (mouth_alone) {
       show(moment, std::nullopt);
       continue;
@@ -60,7 +62,7 @@ std::string HeadCells(const HeadPose& head) {
 std::string PrintProsody(const MouthNet& net, std::span<const std::int16_t> samples) {
   std::string text =
       "ms,hz,voicing,power_db,tilt_db,speech,syllable,pitch_above,power_above,position\n";
-  Moments(net, nullptr, samples, [&](const auto& moment, const VoiceManner& manner) {
+  Moments(net, nullptr, {}, samples, [&](const auto& moment, const VoiceManner& manner) {
     const ProsodyFrame& now = manner.prosody();
     const SpeakerUsual& usual = manner.stream().usual();
     const double pitch = now.hz > 0 ? usual.log_hz.Above(std::log(static_cast<double>(now.hz))) : 0;
@@ -112,10 +114,10 @@ std::string PrintLines(const std::vector<Shown>& moments) {
 
 }  // namespace
 
-std::string PrintTrack(const MouthNet& net, const HeadNet* head,
+std::string PrintTrack(const MouthNet& net, const HeadNet* head, const RecordedMouth& words,
                        std::span<const std::int16_t> samples, const std::string& format) {
   if (format == "prosody") return PrintProsody(net, samples);
-  const auto moments = Moments(net, head, samples);
+  const auto moments = Moments(net, head, words, samples);
   return format == "csv" ? PrintTable(net.sounds, moments, head != nullptr) : PrintLines(moments);
 }
 

@@ -6,6 +6,7 @@
 
 #include "vdm/net/mouth_net.h"
 #include "vdm/prosody/head_net.h"
+#include "vdm/recording/recorded_mouth.h"
 #include "vdm/triphone/triphone_model.h"
 
 namespace vdm {
@@ -19,8 +20,9 @@ namespace vdm {
 ///   likely),
 ///          syllable (1 where a nucleus has ended), pitch and power in deviations above the
 ///          speaker's usual, position in the phrase
+/// `words`: what is known of the sound beside what the network hears; may be empty.
 /// REQUIRES: one of the three; a head that knows as many sounds as the mouth, or none.
-std::string PrintTrack(const MouthNet& net, const HeadNet* head,
+std::string PrintTrack(const MouthNet& net, const HeadNet* head, const RecordedMouth& words,
                        std::span<const std::int16_t> samples, const std::string& format);
 /// The mouth of spoken phonemes, by triphones. Error: kLimit (MouthOf).
 vm::Result<std::string> PrintTrack(const TriphoneModel& model, const vm::PhonemeList& phonemes,

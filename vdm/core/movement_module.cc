@@ -67,6 +67,7 @@ void MovementModule::Renew(bool same_speaker) {
   }
   sender_.Finish();
   tracker_ = std::make_unique<MouthTracker>(net(), speaker_.warp);
+  words_ = {};
   manner_.reset();
   if (parts.head || parts.emotions) {
     manner_ =
@@ -96,8 +97,17 @@ vm::Result<std::string> MovementModule::SetInput(const std::string& name) {
   return name;
 }
 
+void MovementModule::ReadWords() {
+  constexpr std::string_view kRecording = "wav:";
+  if (!best_ || !options_.read_words || !options_.clock_is_shared()) return;
+  if (!source_name_.starts_with(kRecording)) return;
+  words_ = options_.read_words(source_name_.substr(kRecording.size()));
+  slots_.Report("Mouth.words", words_.text);
+}
+
 vm::Result<void> MovementModule::StartSource() {
   stalled_ = false;
+  ReadWords();
   return source_->Start({.sound = [this](std::span<const std::int16_t> samples) { Hear(samples); },
                          .ended = [this] { OnSourceOver(); },
                          .failed =
@@ -181,6 +191,7 @@ void MovementModule::Hear(std::span<const std::int16_t> samples) {
   if (manner_) manner_->Add(samples);
   manner_settings_.wait = static_cast<std::size_t>((delay_ - ShortestDelay()).count()) * 16 / 1000;
   for (MouthTracker::Moment& moment : tracker_->Add(samples)) {
+    words_.Blend(moment.sample, moment.frame);
     if (!manner_) {
       Show(moment, std::nullopt);
       continue;

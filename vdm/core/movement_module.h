@@ -12,6 +12,7 @@
 #include "vdm/mouth/sound_clock.h"
 #include "vdm/mouth/speaker.h"
 #include "vdm/mouth/speaker_learner.h"
+#include "vdm/recording/recorded_mouth.h"
 #include "vm_protocol/core/module.h"
 
 namespace vdm {
@@ -32,6 +33,9 @@ class MovementModule final : public vm::Module {
         open_source{};
     /// Whether this process's clock is that of the session (a virtual one).
     std::function<bool()> clock_is_shared{};
+    /// What the words of a recording (a file's path) have the mouth do; may be none. It takes its
+    /// time, so it is asked where nobody waits: on a clock that is shared.
+    std::function<RecordedMouth(const std::string&)> read_words{};
     const MouthNet* phones = nullptr;   ///< for PHONES; null where its features cannot be made
     const MouthNet* mel = nullptr;      ///< for Mouth.mode = MEL; outlives the module
     const MouthNet* cepstra = nullptr;  ///< for Mouth.mode = CEPSTRA; likewise
@@ -69,6 +73,7 @@ class MovementModule final : public vm::Module {
 
   vm::Result<std::string> SetInput(const std::string& name);
   vm::Result<void> StartSource();
+  void ReadWords();
   void Start();
   void Stop();
   void Hear(std::span<const std::int16_t> samples);
@@ -115,6 +120,8 @@ class MovementModule final : public vm::Module {
   std::string learned_name_;
 
   std::unique_ptr<MouthTracker> tracker_;  // of the sound since it began anew
+  RecordedMouth words_;                    // of the same
+  bool best_ = true;                       // Mouth.mode
   SoundClock sound_clock_;
   std::unique_ptr<VoiceManner> manner_;  // none while neither head nor emotion is wanted
   const HeadNet* head_net_ = nullptr;

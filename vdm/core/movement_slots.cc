@@ -61,7 +61,8 @@ vm::Result<void> MovementModule::SetMode(const std::string& word) {
     return vm::Fail(vm::Errc::kUnavailable,
                     can ? "this program has no network for PHONES" : can.error().text);
   }
-  mode_ = word == "BEST"     ? BestMode()
+  best_ = word == "BEST";
+  mode_ = best_              ? BestMode()
           : word == "PHONES" ? Mode::kPhones
           : word == "MEL"    ? Mode::kMel
           : word == "OFF"    ? Mode::kOff
@@ -84,7 +85,9 @@ void MovementModule::DeclareMouth() {
        .help =
            "By what the mouth is found: PHONES, a network that sees mel bands over time and how "
            "likely the phones of English are by Debian's pocketsphinx-en-us; MEL, one that sees "
-           "mel bands alone; BEST, PHONES where that model is installed and MEL else; CEPSTRA, "
+           "mel bands alone; BEST, PHONES where that model is installed and MEL else, and of a "
+           "recording on the virtual clock also its English words, which are recognised before "
+           "it begins; CEPSTRA, "
            "the small one of the original's papers, which sees 20 LPC cepstra of one frame "
            "(Delay at least 56); OFF: the mouth rests.",
        .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
@@ -123,6 +126,8 @@ void MovementModule::DeclareMouth() {
       "Mouth.sounds", "",
       "Each frame's sounds: MS, then NAME LIKELIHOOD of each class of sounds (vdm/tables/"
       "sounds.txt) from 0.05 on.");
+  slots_.DeclareTold("Mouth.words", "",
+                     "What was recognised in a recording; empty: no words that could be trusted.");
   slots_.DeclareTold("Mouth.stat", "OFF", "OFF, LISTENING (the mouth rests) or MOVING.", true);
 }
 
