@@ -40,37 +40,6 @@ Tracker::Tracker(facefit::FaceNetworks& networks, facefit::AttentionNetwork& att
                  const SeenFace& face, const Settings& settings)
     : networks_(networks), attention_(attention), face_(face), settings_(settings) {}
 
-bool Tracker::IsCut(const fsm::Image& picture) {
-  // Each cell is a mean of many pixels, so that noise does not add up to a cut.
-  constexpr int kCells = 24, kStep = 16;
-  constexpr float kCut = 10;  // of 255, between pictures that follow each other
-  // What moves within a picture leaves the cells much the same, in other places: so far apart are
-  // the sorted ones (the earth mover's distance of their histograms).
-  constexpr float kOtherCells = 5;
-  constexpr int kSide = kCells * kStep;
-  std::vector<float> thumbnail(kCells * kCells, 0);
-  for (int y = 0; y < kSide; ++y) {
-    const auto row = static_cast<std::size_t>(y * picture.height / kSide) *
-                     static_cast<std::size_t>(picture.width);
-    for (int x = 0; x < kSide; ++x) {
-      const auto at = 4 * (row + static_cast<std::size_t>(x * picture.width / kSide));
-      const int sum = picture.rgba[at] + picture.rgba[at + 1] + picture.rgba[at + 2];
-      thumbnail[static_cast<std::size_t>(y / kStep * kCells + x / kStep)] +=
-          static_cast<float>(sum) / (3 * kStep * kStep);
-    }
-  }
-  const auto apart = [&thumbnail](const std::vector<float>& before) {
-    float sum = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) sum += std::abs(thumbnail[i] - before[i]);
-    return sum / (kCells * kCells);
-  };
-  const float off = apart(thumbnail_);
-  auto before = std::exchange(thumbnail_, thumbnail);
-  std::ranges::sort(thumbnail);
-  std::ranges::sort(before);
-  return off > kCut && apart(before) > kOtherCells;
-}
-
 std::optional<Tracker::Candidate> Tracker::LookAt(const fsm::Image& picture,
                                                   facefit::AttentiveFace found, const Doing* start,
                                                   const Points& rest, FrameFit::What what) {
@@ -190,7 +159,7 @@ Doing Tracker::Follow(const Sighting& seen, const FaceLook& look, const Doing& s
 std::vector<FaceLine> Tracker::Look(const fsm::Image& filmed, double ms) {
   if (!fit_) fit_.emplace(face_, Lens::Of(filmed.width, filmed.height, settings_.field_degrees));
   std::vector<FaceLine> lines;
-  const bool cut = IsCut(filmed);
+  const bool cut = cut_finder_.IsCut(filmed);
   if (cut) lines = Finish();
   const bool follows = last_ && !cut;
   if (!follows) noise_filter_.Forget();

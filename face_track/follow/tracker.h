@@ -8,6 +8,7 @@
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/fit/image_fit.h"
 #include "face_track/fit/person.h"
+#include "face_track/follow/cut_finder.h"
 #include "face_track/follow/face_line.h"
 #include "face_track/follow/noise_filter.h"
 #include "face_track/follow/smooth.h"
@@ -51,7 +52,6 @@ class Tracker {
     facefit::AttentiveFace face;
     Doing doing;
   };
-  bool IsCut(const fsm::Image& picture);
   std::optional<Waiting> See(const fsm::Image& picture, double ms, bool cut);
   /// What the network sees of a face when it is shown it as it was when the table was made; none
   /// where that is no face.
@@ -81,7 +81,7 @@ class Tracker {
   int unseen_ = 0;             // pictures since it was lost
   int unlike_ = 0;             // pictures in which a face is followed that is not the person's
   std::deque<Waiting> waiting_;
-  std::vector<float> thumbnail_;
+  CutFinder cut_finder_;
   NoiseFilter noise_filter_;
   std::vector<Smooth> filters_;
   double last_ms_ = 0;
