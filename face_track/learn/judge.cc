@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <map>
+#include <span>
 
 #include "face_track/fit/image_fit.h"
 #include "face_track/fit/person.h"
@@ -53,41 +58,121 @@ void JudgeTurns(const FrameFit& fit, const Person& met, Sitter& sitter,
              by_picture.rms(), by_points.rms());
 }
 
-void JudgeDoses(const FrameFit& fit, const Person& met, Sitter& sitter, const Doing& rest) {
+/// From where a person's points lie at rest, mm in the head's frame.
+Points MovedBy(const FrameFit& fit, const Person& met, const Sitter::Sight& sight,
+               const Doing& doing) {
+  Points moved = fit.OnFace(met.rest, sight.places, doing);
+  for (std::size_t i = 0; i < kPoints; ++i) moved[i] -= met.rest[i];
+  return moved;
+}
+
+/// As the picture shows them, without the depth.
+float Product(const Points& a, const Points& b) {
+  float sum = 0;
+  for (std::size_t i = 0; i < kPoints; ++i) sum += glm::dot(glm::vec2(a[i]), glm::vec2(b[i]));
+  return sum;
+}
+
+/// How far the points go, all together, as a head turns so little that nothing should be seen.
+float Tremble(const FrameFit& fit, const Person& met, Sitter& sitter) {
+  constexpr fsm::Angles kLittle[] = {{0, -2, 0}, {0, 2, 0}, {-2, 0, 0}, {2, 0, 0}, {0, 0, 2}};
+  float squares = 0;
+  for (const fsm::Angles& turn : kLittle) {
+    fsm::FaceState state;
+    state.head_rotation = turn;
+    const auto sight = sitter.Look(state);
+    const Doing doing = fit.Solve(met.rest, sight.places, fit.Guess(sight.places), What::kPose);
+    const Points moved = MovedBy(fit, met, sight, doing);
+    squares += Product(moved, moved);
+  }
+  return std::sqrt(squares / static_cast<float>(std::size(kLittle)));
+}
+
+std::vector<JudgedDose> JudgeDoses(const FrameFit& fit, const Person& met, Sitter& sitter,
+                                   const Doing& rest) {
   const auto& channels = fit.face().channels;
-  float off = 0, wrong = 0;
-  int judged = 0;
-  fmt::print("  units at {}, and all others:", kDose);
+  const float tremble = Tremble(fit, met, sitter);
+  std::vector<JudgedDose> judged;
   for (const Channel& channel : channels) {
     if (channel.kind != Channel::Kind::kUnit || channel.side == "L") continue;
     fsm::FaceState state = StateOf(channel, kDose);
     state.au[fsm::Side::kLeft][static_cast<std::size_t>(channel.unit)] = kDose;
     const auto sight = sitter.Look(state);
     const Doing doing = fit.Solve(met.rest, sight.places, rest, What::kDoses);
-    float found = 0, others = 0;
+    JudgedDose dose{.unit = channel.unit};
+    std::vector<float> told(channels.size(), 0.0F);
     for (std::size_t c = 0; c < channels.size(); ++c) {
       if (channels[c].kind != Channel::Kind::kUnit) continue;
-      (channels[c].unit == channel.unit ? found : others) += doing.doses[c];
+      const bool own = channels[c].unit == channel.unit;
+      (own ? dose.found : dose.others) += doing.doses[c];
+      if (own) told[c] = kDose;
     }
-    if (!channel.side.empty()) found *= 0.5F;
-    fmt::print(" {}:{:.2f},{:.2f}", channel.unit, found, others);
-    off += std::abs(found - kDose) / kDose;
-    wrong += others;
-    ++judged;
+    if (!channel.side.empty()) dose.found *= 0.5F;
+    const Points moved = MovedBy(fit, met, sight, rest);
+    Points usual = Moved(fit.face(), met.rest, told);
+    for (std::size_t i = 0; i < kPoints; ++i) usual[i] -= met.rest[i];
+    dose.moved = std::sqrt(Product(moved, moved)) / tremble;
+    dose.gain = Product(moved, usual) / Product(usual, usual);
+    judged.push_back(dose);
   }
-  fmt::print("\n  doses off by {:.0f} %, other units sum up to {:.2f}\n",
-             100 * off / static_cast<float>(judged), wrong / static_cast<float>(judged));
+  return judged;
 }
+
+/// Mean and deviation of a number of some doses.
+struct Average {
+  float mean = 0, deviation = 0;
+  Average(std::span<const JudgedDose> doses, float JudgedDose::*number) {
+    const auto count = static_cast<float>(doses.size());
+    for (const JudgedDose& d : doses) mean += d.*number / count;
+    for (const JudgedDose& d : doses) deviation += std::pow(d.*number - mean, 2.0F) / count;
+    deviation = std::sqrt(deviation);
+  }
+};
+
+float Off(const JudgedDose& dose) { return std::abs(dose.found - kDose) / kDose; }
 
 }  // namespace
 
-void Judge(const SeenFace& face, Sitter& sitter) {
+std::vector<JudgedDose> Judge(const SeenFace& face, Sitter& sitter) {
   const FrameFit fit(face, sitter.lens());
   const auto at_rest = sitter.Look({});
   const Person met = Meet(fit, {{.places = at_rest.places, .depth = at_rest.depth}});
   const Doing rest = fit.Solve(met.rest, at_rest.places, fit.Guess(at_rest.places), What::kPose);
   JudgeTurns(fit, met, sitter, at_rest, rest);
-  JudgeDoses(fit, met, sitter, rest);
+  const auto judged = JudgeDoses(fit, met, sitter, rest);
+  float off = 0;
+  for (const JudgedDose& dose : judged) off += Off(dose) / static_cast<float>(judged.size());
+  fmt::print("  doses off by {:.0f} %, other units sum up to {:.2f}\n", 100 * off,
+             Average(judged, &JudgedDose::others).mean);
+  return judged;
+}
+
+std::string TableOfUnits(const std::vector<JudgedDose>& judged) {
+  std::map<int, std::vector<JudgedDose>> by_unit;
+  for (const JudgedDose& dose : judged) by_unit[dose.unit].push_back(dose);
+  struct Row {
+    float moved;
+    std::string text;
+  };
+  std::vector<Row> rows;
+  for (const auto& [unit, doses] : by_unit) {
+    float squares = 0;
+    for (const JudgedDose& dose : doses) squares += std::pow(Off(dose), 2.0F);
+    const Average found(doses, &JudgedDose::found), gain(doses, &JudgedDose::gain);
+    const float moved = Average(doses, &JudgedDose::moved).mean;
+    rows.push_back(
+        {moved, fmt::format("{:>4} {:>7.1f} {:>6.2f} {:>5.2f} {:>7.2f} {:>5.0f} {:>7.2f}\n", unit,
+                            moved, gain.mean, gain.deviation, found.mean,
+                            100 * std::sqrt(squares / static_cast<float>(doses.size())),
+                            Average(doses, &JudgedDose::others).mean)});
+  }
+  std::ranges::sort(rows, std::greater{}, &Row::moved);
+  std::string text = fmt::format(
+      "units at {}; moved: in parts of what points do by themselves; gain: beside the table's\n"
+      "unit   moved   gain   +-   found  rms %  others\n",
+      kDose);
+  for (const Row& row : rows) text += row.text;
+  return text;
 }
 
 }  // namespace facetrack

@@ -1,12 +1,25 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "face_track/learn/sitter.h"
-#include "face_track/model/seen_face.h"
 
 namespace facetrack {
 
-/// Prints how turns and units of a head are found that is met in one picture as a stranger: how far
-/// off the angles are, each counted from the rest, and the doses.
-void Judge(const SeenFace& face, Sitter& sitter);
+/// How the dose of one unit was found on one face.
+struct JudgedDose {
+  int unit = 0;
+  float found = 0;   ///< of Judge's dose, the mean of both sides
+  float others = 0;  ///< the sum of all other units' doses
+  float moved = 0;   ///< how far the points went, in parts of what they do as nothing is done
+  float gain = 0;    ///< how far they went the way the table has them go, in parts of it
+};
+
+/// Prints how turns of a face are found, and how far off its doses are on the mean. Returns them.
+std::vector<JudgedDose> Judge(const SeenFace& face, Sitter& sitter);
+
+/// A line of each unit over all faces, those of which the points move most first.
+std::string TableOfUnits(const std::vector<JudgedDose>& judged);
 
 }  // namespace facetrack

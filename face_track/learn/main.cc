@@ -200,11 +200,14 @@ void JudgeFaces(const std::vector<std::string>& names, const std::string& folder
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(folder));
   facefit::AttentionNetwork attention = vm::OrThrow(facefit::AttentionNetwork::Load(folder));
   HeadPainter painter;
+  std::vector<JudgedDose> judged;
   for (const std::string& name : names) {
     fmt::print("{}\n", name);
     Sitter sitter(fsm::MakeHeadOfName(name), networks, attention, painter);
-    Judge(SeenFace::Shipped(), sitter);
+    const auto doses = Judge(SeenFace::Shipped(), sitter);
+    judged.insert(judged.end(), doses.begin(), doses.end());
   }
+  fmt::print("{}", TableOfUnits(judged));
 }
 
 }  // namespace
