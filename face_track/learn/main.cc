@@ -17,6 +17,7 @@
 #include "face_track/learn/judge.h"
 #include "face_track/learn/mouth_lesson.h"
 #include "face_track/learn/sitter.h"
+#include "face_track/learn/variations.h"
 #include "fsm/faces/face_of_name.h"
 #include "vm_protocol/core/or_throw.h"
 
@@ -62,6 +63,7 @@ struct Look {
 struct Sums {
   SeenFace face;
   std::vector<Look> looks;
+  Variations variations;
   int heads = 0;
 
   void Add(Sitter& sitter) {
@@ -78,13 +80,17 @@ struct Sums {
         looks.push_back({down, right, sitter.Slides(down, right)});
       }
     }
+    Variations::Seen seen;
     for (Channel& channel : face.channels) {
+      seen.emplace_back();
       channel.motion.resize(channel.doses.size(), Points(kPoints, glm::vec3(0)));
       for (std::size_t k = 0; k < channel.doses.size(); ++k) {
-        const Points motion = sitter.Motion(channel, channel.doses[k]);
-        for (std::size_t i = 0; i < kPoints; ++i) channel.motion[k][i] += motion[i];
+        const Sitter::Motion motion = sitter.MotionOf(channel, channel.doses[k]);
+        for (std::size_t i = 0; i < kPoints; ++i) channel.motion[k][i] += motion.moved[i];
+        seen.back().push_back(motion.seen);
       }
     }
+    variations.Add(std::move(seen));
   }
 
   SeenFace Mean() const {
@@ -127,28 +133,13 @@ struct Sums {
   }
 };
 
-/// The points with channels of both sides at their greatest doses.
-Points Opened(const SeenFace& face, std::initializer_list<const char*> channels) {
-  Points points = face.rest;
-  for (const char* name : channels) {
-    const Channel& channel = face.channels[face.Find(name)];
-    for (std::size_t i = 0; i < kPoints; ++i) points[i] += channel.motion.back()[i];
-  }
-  return points;
-}
-
-/// Heads are symmetric: what is seen of one side is averaged with the other's mirrored.
-SeenFace Balanced(const SeenFace& face) {
-  const auto mirrored = MirroredPoints({face.rest, Opened(face, {"26"}), Opened(face, {"28"}),
-                                        Opened(face, {"9L", "9R"}), Opened(face, {"43L", "43R"})});
+/// What is seen of one side is averaged with the other's mirrored.
+SeenFace Balanced(const SeenFace& face, const Mirroring& mirroring) {
   constexpr glm::vec3 kFlip(-1, 1, 1);
   SeenFace balanced = face;
   for (std::size_t i = 0; i < kPoints; ++i) {
-    const std::size_t m = mirrored[i];
-    if (m == i && std::abs(face.rest[i].x) > 3) {
-      std::cerr << fmt::format("face_track_learn: point {} has no opposite; left as seen\n", i);
-      continue;
-    }
+    const std::size_t m = mirroring.points[i];
+    if (!mirroring.IsPaired(face, i)) continue;
     balanced.rest[i] = 0.5F * (face.rest[i] + kFlip * face.rest[m]);
     balanced.depth[i] = 0.5F * (face.depth[i] + face.depth[m]);
     balanced.spread[i] = 0.5F * (face.spread[i] + face.spread[m]);
@@ -158,16 +149,13 @@ SeenFace Balanced(const SeenFace& face) {
       const glm::vec2 flip = odd ? glm::vec2(1, -1) : glm::vec2(-1, 1);
       balanced.slide[i][k] = 0.5F * (face.slide[i][k] + flip * face.slide[m][k]);
     }
-    for (Channel& channel : balanced.channels) {
-      const char* other = channel.side == "L" ? "R" : channel.side == "R" ? "L" : "";
-      Channel name = channel;
-      name.side = other;
-      const Channel& opposite = face.channels[face.Find(name.Name())];
-      const bool turned = channel.kind == Channel::Kind::kGazeRight;
-      for (std::size_t k = 0; k < channel.doses.size(); ++k) {
-        const std::size_t j = turned ? channel.doses.size() - 1 - k : k;
-        const Channel& own = face.channels[face.Find(channel.Name())];
-        channel.motion[k][i] = 0.5F * (own.motion[k][i] + kFlip * opposite.motion[j][m]);
+    for (std::size_t c = 0; c < face.channels.size(); ++c) {
+      const Channel& own = face.channels[c];
+      const Channel& opposite = face.channels[mirroring.channels[c]];
+      for (std::size_t k = 0; k < own.doses.size(); ++k) {
+        const std::size_t j = Mirroring::Dose(own, k);
+        balanced.channels[c].motion[k][i] =
+            0.5F * (own.motion[k][i] + kFlip * opposite.motion[j][m]);
       }
     }
   }
@@ -193,7 +181,10 @@ void Learn(const std::string& out, std::size_t heads, const std::string& folder)
   }
   SeenFace face = sums.Mean();
   sums.FitSlides(face);
-  WriteTable(out, Balanced(face).Print());
+  const Mirroring mirroring = Mirroring::Of(face);
+  face = Balanced(face, mirroring);
+  sums.variations.Teach(mirroring, face);
+  WriteTable(out, face.Print());
 }
 
 void JudgeFaces(const std::vector<std::string>& names, const std::string& folder) {

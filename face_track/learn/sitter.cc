@@ -79,13 +79,17 @@ std::vector<glm::vec2> Sitter::Slides(float down, float right) {
   return slides;
 }
 
-Points Sitter::Motion(const Channel& channel, float dose) {
+Sitter::Motion Sitter::MotionOf(const Channel& channel, float dose) {
   const Sight sight = Look(StateOf(channel, dose));
-  Points motion;
+  Motion motion;
   for (std::size_t i = 0; i < kPoints; ++i) {
-    const float z =
-        sight.pose(rest_[i]).z + scale_ * (DepthOf(i, sight.vertices) - DepthOf(i, base_.rest()));
-    motion.push_back(sight.pose.Inverse(painter_.lens().Unproject(sight.places[i], z)) - rest_[i]);
+    const float still = sight.pose(rest_[i]).z;
+    const float z = still + scale_ * (DepthOf(i, sight.vertices) - DepthOf(i, base_.rest()));
+    const auto moved_at = [&](float depth) {
+      return sight.pose.Inverse(painter_.lens().Unproject(sight.places[i], depth)) - rest_[i];
+    };
+    motion.moved.push_back(moved_at(z));
+    motion.seen.emplace_back(moved_at(still));
   }
   return motion;
 }

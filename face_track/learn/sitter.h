@@ -35,8 +35,12 @@ class Sitter {
 
   /// How far from where they are the points are seen on the turned head, mm of the view.
   std::vector<glm::vec2> Slides(float down, float right);
+  struct Motion {
+    Points moved;                 ///< in the head's frame
+    std::vector<glm::vec2> seen;  ///< likewise, if their depth stayed as it is
+  };
   /// By how much a channel moves them.
-  Points Motion(const Channel& channel, float dose);
+  Motion MotionOf(const Channel& channel, float dose);
 
  private:
   float DepthOf(std::size_t point, const fsm::HeadVertices& vertices) const;

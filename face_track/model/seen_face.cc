@@ -45,7 +45,55 @@ std::vector<float> ScalarsOf(const fsm::TableRow& row, std::size_t from) {
   return numbers;
 }
 
+/// The channel a row names by kind, number and side, from word `from` on.
+Channel NamedBy(const fsm::TableRow& row, std::size_t kind, std::size_t from) {
+  Channel channel;
+  channel.kind = static_cast<Channel::Kind>(kind);
+  channel.unit = row.Integer(from);
+  channel.side = row.Word(from + 1) == "-" ? "" : row.Word(from + 1);
+  return channel;
+}
+
 constexpr std::string_view kKinds[] = {"unit", "gaze_down", "gaze_right"};
+
+/// In which ways heads differ, and how much so with each channel.
+void ReadVariations(const fsm::Table& table, SeenFace& face) {
+  const auto rows = table.RowsOf("variation");
+  if (rows.size() > SeenFace::kMostVariations) table.Refuse("too many rows 'variation'");
+  for (const fsm::TableRow& row : rows) {
+    const auto numbers = row.Numbers(1);
+    if (numbers.size() != 2 * kPoints) {
+      row.Refuse(fmt::format("{} numbers found, {} expected", numbers.size(), 2 * kPoints));
+    }
+    auto& variation = face.variations.emplace_back();
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      variation.push_back(glm::vec2(numbers[2 * i], numbers[2 * i + 1]) / kUnit);
+    }
+  }
+  face.remainder = ScalarsOf(table.Only("remainder"), 1);
+  for (const fsm::TableRow& row : table.RowsOf("varies")) {
+    const auto kind = std::ranges::find(kKinds, row.Word(1));
+    if (kind == std::end(kKinds)) row.Refuse("expected unit, gaze_down or gaze_right");
+    const auto name = NamedBy(row, static_cast<std::size_t>(kind - kKinds), 2).Name();
+    const auto at = std::ranges::find(face.channels, name, &Channel::Name);
+    if (at == face.channels.end()) row.Refuse("how " + name + " moves is not told");
+    if (!at->varies.empty()) row.Refuse(name + " is told twice");
+    at->varies = row.Numbers(4);
+    if (at->varies.size() != rows.size()) {
+      row.Refuse(fmt::format("{} numbers found, {} expected, one a row 'variation'",
+                             at->varies.size(), rows.size()));
+    }
+    for (float& v : at->varies) {
+      if (v < 0) row.Refuse("expected numbers of 0 or more");
+      v /= kUnit;
+    }
+  }
+  for (const Channel& channel : face.channels) {
+    if (channel.varies.size() != rows.size()) {
+      table.Refuse("expected a row 'varies' of " + channel.Name());
+    }
+  }
+}
 
 SeenFace Read(const fsm::Table& table) {
   SeenFace face;
@@ -63,10 +111,7 @@ SeenFace Read(const fsm::Table& table) {
   }
   for (std::size_t kind = 0; kind < 3; ++kind) {
     for (const fsm::TableRow& row : table.RowsOf(kKinds[kind])) {
-      Channel channel;
-      channel.kind = static_cast<Channel::Kind>(kind);
-      channel.unit = row.Integer(1);
-      channel.side = row.Word(2) == "-" ? "" : row.Word(2);
+      Channel channel = NamedBy(row, kind, 1);
       const float dose = row.Number(3);
       auto at = std::ranges::find(face.channels, channel.Name(), &Channel::Name);
       if (at == face.channels.end()) {
@@ -80,6 +125,7 @@ SeenFace Read(const fsm::Table& table) {
       at->motion.push_back(PointsOf(row, 4));
     }
   }
+  ReadVariations(table, face);
   return face;
 }
 
@@ -175,7 +221,11 @@ std::string SeenFace::Print() const {
       "#                      y and p the turn to the right and down in parts of 30 degrees:\n"
       "#                      how far from where they are they are seen\n"
       "# unit NUMBER SIDE DOSE X Y Z ...   how they move with a unit of FACS; SIDE L, R, - (both)\n"
-      "# gaze_down, gaze_right 0 SIDE DEGREES X Y Z ...   likewise as an eye turns\n";
+      "# gaze_down, gaze_right 0 SIDE DEGREES X Y Z ...   likewise as an eye turns\n"
+      "# variation X Y ...    a way in which heads differ in how they move, 1 mm rms\n"
+      "# remainder S ...      how far they move otherwise in other ways\n"
+      "# varies KIND NUMBER SIDE S ...     by how much along each variation, at dose 1 or 20 "
+      "degrees\n";
   text += "rest";
   Add(text, rest);
   text += "\ndepth";
@@ -193,6 +243,17 @@ std::string SeenFace::Print() const {
                       channel.unit, channel.side.empty() ? "-" : channel.side, channel.doses[k]);
       Add(text, channel.motion[k]);
     }
+  }
+  for (const auto& variation : variations) {
+    text += "\nvariation";
+    for (const glm::vec2 p : variation) Add(text, p.x), Add(text, p.y);
+  }
+  text += "\nremainder";
+  for (const float v : remainder) Add(text, v);
+  for (const Channel& channel : channels) {
+    text += fmt::format("\nvaries {} {} {}", kKinds[static_cast<std::size_t>(channel.kind)],
+                        channel.unit, channel.side.empty() ? "-" : channel.side);
+    for (const float v : channel.varies) Add(text, v);
   }
   return text + "\n";
 }

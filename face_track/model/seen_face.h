@@ -31,12 +31,17 @@ struct Channel {
   std::string side;            ///< "L", "R" or "" for both: the person's own
   std::vector<float> doses;    ///< rising, without 0: strengths, or degrees of the gaze
   std::vector<Points> motion;  ///< at each dose, of all points, in the head's frame
+  /// Along each of SeenFace::variations: by how much (rms) one head moves otherwise than another,
+  /// at a dose of usual().
+  std::vector<float> varies;
 
   std::string Name() const;  ///< "12L", "26", "gaze_downL"
   /// Between doses straight, and on beyond the last ones.
   glm::vec3 At(std::size_t point, float dose) const;
   /// By how much one more of the dose moves a point.
   glm::vec3 Slope(std::size_t point, float dose) const;
+  /// The size of a dose that is nothing unusual.
+  float usual() const { return kind == Kind::kUnit ? 1 : 20; }
   float lowest() const { return kind == Kind::kUnit ? 0 : 1.5F * doses.front(); }
   float highest() const { return (kind == Kind::kUnit ? 1.2F : 1.5F) * doses.back(); }
 
@@ -46,7 +51,8 @@ struct Channel {
 };
 
 /// A face as the network sees it: how its points lie on a usual head at rest, how they slide over
-/// it as it turns, what the units make of them, and how sure they are. A table that
+/// it as it turns, what the units make of them, how sure they are, and in which ways heads differ
+/// in what units make of them. A table that
 /// face_track_learn makes of pictures of our heads (docs/tracking.md). Sizes are those of a head
 /// whose outer corners of the eyes lie kEyesApart mm apart.
 struct SeenFace {
@@ -58,6 +64,10 @@ struct SeenFace {
   std::vector<float> spread;  ///< mm by which points of other heads lie otherwise as they turn
   std::vector<std::array<glm::vec2, kSlides>> slide;
   std::vector<Channel> channels;
+  static constexpr std::size_t kMostVariations = 200;
+  /// Ways in which heads differ in how they move, each of 1 mm (rms over the points), x and y.
+  std::vector<std::vector<glm::vec2>> variations;
+  std::vector<float> remainder;  ///< mm (rms) by which they differ in other ways, a point each
 
   /// How far a point is seen from where it is, mm to the right and up on a head that is seen
   /// turned so many degrees down and to the right.

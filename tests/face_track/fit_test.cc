@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "face_track/fit/bounded_solve.h"
+#include "face_track/fit/frame_fit.h"
 #include "face_track/live/face_command.h"
 #include "face_track/model/lips.h"
 #include "face_track/model/seen_face.h"
@@ -17,6 +19,77 @@ TEST(SeenFaceTest, AnglesComeBackFromTurns) {
   const fsm::Angles told{12, -25, 7};
   const fsm::Angles back = fsm::HeadRotationOf(TurnOf(told));
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], told[k], 1e-3);
+}
+
+TEST(SeenFaceTest, ATableIsReadAsItIsPrinted) {
+  const std::string text = SeenFace::Shipped().Print();
+  const auto again = SeenFace::Parse("t", text);
+  ASSERT_TRUE(again) << again.error().text;
+  EXPECT_EQ(again->Print(), text);
+}
+
+TEST(SeenFaceTest, ADamagedVariationIsNamedWithItsLine) {
+  const std::string text = SeenFace::Shipped().Print();
+  const auto error = [](const std::string& damaged) {
+    const auto parsed = SeenFace::Parse("t", damaged);
+    return parsed ? std::string("none") : parsed.error().text;
+  };
+  const auto lines = std::to_string(std::ranges::count(text, '\n'));
+  const std::size_t last = text.rfind("\nvaries") + 1;
+  EXPECT_EQ(error(text.substr(0, last)), "t: expected a row 'varies' of gaze_rightR");
+  EXPECT_NE(error(text.substr(0, text.size() - 1) + " 7\n").find("t:" + lines + ": "),
+            std::string::npos);
+  EXPECT_NE(error(text + text.substr(last)).find("is told twice"), std::string::npos);
+  EXPECT_NE(error(text + "varies unit 99 - 1\n").find("99"), std::string::npos);
+  EXPECT_NE(error(text + "varies nose 1 - 1\n").find("expected unit"), std::string::npos);
+  std::string negative = text;
+  negative.insert(negative.rfind(' ') + 1, "-1");
+  EXPECT_NE(error(negative).find("0 or more"), std::string::npos);
+  std::string cut = text;
+  cut.erase(cut.find("\nremainder"),
+            cut.find('\n', cut.find("\nremainder") + 1) - cut.find("\nremainder"));
+  EXPECT_NE(error(cut).find("remainder"), std::string::npos);
+}
+
+/// Where the points of a face are seen that looks straight ahead.
+std::vector<glm::vec2> PlacesOf(const Points& points, const Lens& lens, const Pose& pose) {
+  std::vector<glm::vec2> places;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    places.push_back(SeenAt(SeenFace::Shipped(), lens, pose, i, points[i]));
+  }
+  return places;
+}
+
+TEST(FrameFitTest, AUnitOfAHeadThatMovesOtherwiseIsFoundAndLittleElse) {
+  const SeenFace& face = SeenFace::Shipped();
+  const Lens lens = Lens::Of(400, 400, 25);
+  const FrameFit fit(face, lens);
+  Doing still;
+  still.doses.assign(face.channels.size(), 0);
+  still.pose.place.z = -800;
+  for (const char* unit : {"2", "12", "15"}) {
+    Doing doing = still;
+    for (const char* side : {"L", "R"}) doing.doses[face.Find(unit + std::string(side))] = 0.7F;
+    Points points = Moved(face, face.rest, doing.doses);
+    for (std::size_t k = 0; k < face.variations.size(); ++k) {
+      const float by = 0.7F * face.channels[face.Find(unit + std::string("L"))].varies[k];
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        points[i] += (k % 2 ? by : -by) * glm::vec3(face.variations[k][i], 0);
+      }
+    }
+    const Doing found =
+        fit.Solve(face.rest, PlacesOf(points, lens, still.pose), still, FrameFit::What::kDoses);
+    float others = 0;
+    for (std::size_t c = 0; c < face.channels.size(); ++c) {
+      const Channel& channel = face.channels[c];
+      if (channel.kind != Channel::Kind::kUnit) continue;
+      if (std::to_string(channel.unit) == unit)
+        EXPECT_NEAR(found.doses[c], 0.7, 0.15) << channel.Name();
+      else
+        others += found.doses[c];
+    }
+    EXPECT_LT(others, 0.5) << unit;
+  }
 }
 
 TEST(MouthOfLipsTest, AMouthAtRestIsSealedAndALargerOneIsToldAlike) {
