@@ -209,7 +209,8 @@ TEST(HairSpringsTest, OfTiedHairOnlyTheTailAndLooseStrandsSwing) {
     const glm::vec3 p = rig.rest[vertex];
     EXPECT_TRUE(p.z < -85 || p.z > 20) << "lies on the head: " << p.x << " " << p.y << " " << p.z;
   }
-  EXPECT_TRUE(MakeHead("baucis")->rig().data().spring_rig.springs.empty());
+  const auto swept = MakeHead(ReadOwnIdentity("i.txt", "base baucis\nhair swept 10 19 3.5 0.9\n"));
+  EXPECT_TRUE(swept->rig().data().spring_rig.springs.empty());
 }
 
 TEST(HairSpringsTest, NeighboursGoAlong) {
