@@ -139,6 +139,7 @@ vm::Result<std::unique_ptr<SpeechGuesser>> SpeechGuesser::Open(const std::string
   auto words = OpenDecoder(model, {{"-dict", model + "/cmudict-en-us.dict"},
                                    {"-lm", model + "/en-us.lm.bin"},
                                    {"-fwdflat", "yes"},
+                                   {"-maxhmmpf", "3000"},
                                    {"-bestpath", "yes"}});
   if (!words) return std::unexpected(words.error());
   auto parts = std::make_unique<Parts>();

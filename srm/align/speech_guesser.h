@@ -12,7 +12,7 @@ namespace srm {
 /// phonemes are spoken. The confidence of words is that of the piece between pauses they are in:
 /// how well they fit, and how likely they are among all words. A piece whose words have none,
 /// because it is another language or hardly speech, has no words, but the phonemes that fit best.
-/// Takes about 0.4 of the sound's time. Thread: one.
+/// Takes about a third of the sound's time. Thread: one.
 class SpeechGuesser {
  public:
   /// Error: kUnavailable (no model).

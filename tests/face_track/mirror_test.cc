@@ -16,7 +16,7 @@ TEST(MirrorTest, AFilmBeforeTheCameraMovesTheAgentAsAMirrorWould) {
   support::TempDir folder;
   const std::string film = folder / "film.mp4";
   support::Process fsm({GALATEA_BIN_DIR "/fsm", "--headless", "--clock", "virtual", "--size",
-                        "320x320", "--mask", "baucis"});
+                        "320x320", "--mask", "memnon"});
   fsm.Write("set Camera = 1 0 25\nset Record.fps = 10\nset Record = " + film +
             "\nset Wait = 600\nset HeadRotAbs.1 = 0 20 0\nset Wait = 1500\nset Record = STOP\n");
   fsm.CloseInput();

@@ -96,8 +96,9 @@ int BeforeStart(Options& options) {
   if (head && head->sounds != 0 && head->sounds != mouth.sounds.size()) {
     throw std::runtime_error("the head's network knows other sounds than the mouth's");
   }
-  // Who asks for a network wants to see that one.
-  const bool as_heard = options.no_words || options.net || options.cepstra || options.mel;
+  // Who asks for a network wants to see that one; prosody is none of words.
+  const bool as_heard = options.no_words || options.net || options.cepstra || options.mel ||
+                        options.print == "prosody";
   const auto words = as_heard ? vdm::RecordedMouth{} : vdm::ReadWords(samples);
   std::cout << vdm::PrintTrack(mouth, head, words, samples, options.print) << std::flush;
   return std::cout ? 0 : 1;

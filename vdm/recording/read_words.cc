@@ -6,11 +6,16 @@
 namespace vdm {
 
 RecordedMouth ReadWords(const std::vector<std::int16_t>& samples) {
-  constexpr std::size_t kLongS = 30;
+  constexpr std::size_t kLongS = 30, kMostS = 1200;  // memory goes with the length
+  const std::size_t seconds = samples.size() / kSampleRateHz;
+  if (seconds > kMostS) {
+    std::cerr << "no words are recognised in a sound of more than " << kMostS << " s" << std::endl;
+    return {};
+  }
   const auto reader = RecordingReader::Open();
   if (!reader) return {};
-  if (const std::size_t seconds = samples.size() / kSampleRateHz; seconds > kLongS) {
-    std::cerr << "vdm: recognising the words of " << seconds << " s of sound" << std::endl;
+  if (seconds > kLongS) {
+    std::cerr << "recognising the words of " << seconds << " s of sound" << std::endl;
   }
   return (*reader)->Read(samples);
 }

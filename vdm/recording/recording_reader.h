@@ -10,7 +10,7 @@
 namespace vdm {
 
 /// Recognises the English words of recordings, 16 kHz mono, by Debian's pocketsphinx-en-us, in
-/// about 0.4 of their time. Thread: one.
+/// about a third of their time. Thread: one.
 class RecordingReader {
  public:
   /// Error: kUnavailable (no model, or a program that was built without the recogniser).
@@ -19,8 +19,8 @@ class RecordingReader {
   virtual RecordedMouth Read(const std::vector<std::int16_t>& samples) = 0;
 };
 
-/// The words of one recording; none where no reader can be opened. Says so on standard error where
-/// it takes long.
+/// The words of one recording; none where no reader can be opened, or in more than 20 minutes,
+/// which it says on standard error. So it does where it takes long.
 RecordedMouth ReadWords(const std::vector<std::int16_t>& samples);
 
 }  // namespace vdm
