@@ -49,8 +49,7 @@ T OrThrow(vm::Result<T> result) {
 struct Bench {
   vdm::MouthNet net;
   std::optional<vdm::TriphoneModel> triphones{};
-  std::unique_ptr<vdm::RecordingReader>
-      reader{};  // of words before the sound is heard; may be none
+  std::unique_ptr<vdm::RecordingReader> reader{};  // of words, before a sound is heard; or none
   fsm::MotionTables tables;
   std::unique_ptr<fsm::Head> head;
   double work_s = 0, sound_s = 0;

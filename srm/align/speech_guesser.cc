@@ -13,10 +13,9 @@ namespace {
 // Words are told better by what stands around them; a decoder's memory grows with the sound.
 constexpr Millis kLongestPiece{20'000};
 
-/// Recordings of people in English had -8 to -27 and 0.34 to 1, of people and voices in other
-/// languages -15 to -41 and 0 to 0.7, but for some words alone (docs/speech.md).
-/// `fit`: how much worse than free phonemes the words fit, by frame; `likely`: how likely they are
-/// among all that the decoder took into account, on the mean.
+/// How far words are to be trusted, 0 to 1 (docs/vdm.md, Recordings). `fit`: how much worse than
+/// free phonemes they fit, by frame; `likely`: how likely they are among all that the decoder took
+/// into account, on the mean.
 double ConfidenceOf(double fit, double likely) {
   return std::clamp((fit + 20 * likely + 17) / 5, 0.0, 1.0);
 }
@@ -80,8 +79,7 @@ struct SpeechGuesser::Parts {
   std::unique_ptr<PhoneAligner> aligner;
   DecoderPtr phonemes, words;
   Dither dither;
-  std::vector<double>
-      free_scores;  // of each frame of the whole sound, by the phonemes that fit best
+  std::vector<double> free_scores;  // of the phonemes that fit best, by frame of the whole sound
 
   vm::PhonemeList Phonemes(const std::vector<std::int16_t>& samples) {
     HearWhole(phonemes.get(), dither.Add(samples));
@@ -92,7 +90,7 @@ struct SpeechGuesser::Parts {
       const Segment part = ReadSegment(seg);
       if (part.frames() > 0)
         free_scores.resize(static_cast<std::size_t>(part.last) + 1, part.score / part.frames());
-      collector.Add(IsFiller(name) ? "pau" : vm::LowerCase(name), ReadSegment(seg).first);
+      collector.Add(IsFiller(name) ? "pau" : vm::LowerCase(name), part.first);
     }
     return collector.Finish();
   }
