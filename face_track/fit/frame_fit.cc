@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "face_track/fit/bounded_solve.h"
 #include "face_track/model/eigen_glm.h"
@@ -26,7 +27,9 @@ constexpr float kUnsureOfDoses = 0.2F, kVariesAnyway = 0.005F, kFirstDose = 0.3F
 constexpr float kSparse = 1.2F, kSmallDose = 0.2F;
 constexpr float kFarTurn = 20;  // degrees at which points are off by all of their spread
 constexpr int kRounds = 6;
-constexpr float kShut = 0.5F;  // dose of unit 43 from which on an iris is not seen
+constexpr float kAny = 1e6F;      // no bound
+constexpr float kNearest = -150;  // mm, along the line of sight
+constexpr float kShut = 0.5F;     // dose of unit 43 from which on an iris is not seen
 
 /// How surely each variation is not there: the inverse of its variance, by what doses there are.
 Vector SureOfNone(const SeenFace& face, const std::vector<float>& doses, bool first) {
@@ -43,6 +46,134 @@ Vector SureOfNone(const SeenFace& face, const std::vector<float>& doses, bool fi
 
 bool EyeIsShut(const SeenFace& face, const std::vector<float>& doses, std::size_t iris) {
   return doses[face.Find(iris == kIris ? "43R" : "43L")] > kShut;
+}
+
+/// What a small step from a state changes in the picture: two rows a point, in parts of how surely
+/// it is seen.
+struct Equations {
+  Matrix slopes;              // by pose and doses
+  Matrix ways;                // by the variations
+  Vector miss;                // what is wanted
+  std::vector<float> misses;  // mm by which each point lies elsewhere
+};
+
+/// Normal equations of a step within bounds.
+struct Normal {
+  Matrix matrix;
+  Vector down, low, high;
+};
+
+/// One round of the fit, in parts.
+struct Fitting {
+  const SeenFace& face;
+  const Lens& lens;
+  const std::vector<std::size_t>& opposite;  // as FrameFit's
+
+  Equations EquationsAt(const Points& rest, std::span<const glm::vec2> places, const Doing& doing,
+                        const Vector& varied, FrameFit::What what) const;
+  void Draw(Normal& normal, const Doing& doing, bool sparse) const;
+  void Move(Doing& doing, const Vector& by) const;
+};
+
+Equations Fitting::EquationsAt(const Points& rest, std::span<const glm::vec2> places,
+                               const Doing& doing, const Vector& varied,
+                               FrameFit::What what) const {
+  const int channels = what != FrameFit::What::kPose ? static_cast<int>(face.channels.size()) : 0;
+  const Points moved = Moved(face, rest, doing.doses);
+  const Eigen::Matrix3f turn = Of(doing.pose.turn);
+  const float away = -doing.pose.place.z;
+  // Beside the person's rest, what the network sees of a face turned alike is off alike.
+  const float off_by_turn = what == FrameFit::What::kDoses
+                                ? std::min(glm::length(SeenTurn(doing.pose)) / kFarTurn, 1.5F)
+                                : 1;
+  Equations equations{.slopes = Matrix(2 * kPoints, kPose + channels),
+                      .ways = Matrix(2 * kPoints, varied.size()),
+                      .miss = Vector(2 * kPoints),
+                      .misses = std::vector<float>(kPoints)};
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const glm::vec3 q = doing.pose(moved[i]);
+    const float depth = -q.z;
+    const glm::vec2 by =
+        (places[i] - SeenAt(face, lens, doing.pose, i, moved[i])) * (away / lens.focal);
+    equations.misses[i] = glm::length(by);
+    glm::vec3 variation(0);
+    for (Eigen::Index k = 0; k < varied.size(); ++k) {
+      variation += varied[k] * glm::vec3(face.variations[static_cast<std::size_t>(k)][i], 0);
+    }
+    const glm::vec2 varies(doing.pose.turn * variation);
+    const float unsure =
+        varied.size() > 0 ? std::hypot(kUnsureOfDoses, face.remainder[i]) : kUnsure;
+    const float sure = 1 / std::hypot(unsure, off_by_turn * face.spread[i]);
+    const bool hidden = i >= kIris && EyeIsShut(face, doing.doses, i);
+    const float off = glm::length(by - glm::vec2(varies.x, -varies.y)) * sure;
+    const float weight = hidden ? 0 : sure * (off > kHuber ? std::sqrt(kHuber / off) : 1.0F);
+    Eigen::Matrix<float, 2, 3> seen;
+    seen << 1, 0, q.x / depth, 0, -1, -q.y / depth;
+    seen *= weight * away / depth;
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    const Eigen::Vector3f arm = turn * Of(moved[i]);
+    Eigen::Matrix3f cross;
+    cross << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+    equations.slopes.block<2, 3>(row, 0) = seen * cross;
+    equations.slopes.block<2, 3>(row, 3) = seen;
+    const Eigen::Matrix<float, 2, 3> by_place = seen * turn;
+    for (int c = 0; c < channels; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      equations.slopes.block<2, 1>(row, kPose + c) =
+          by_place * Of(face.channels[k].Slope(i, doing.doses[k]));
+    }
+    for (Eigen::Index k = 0; k < varied.size(); ++k) {
+      const glm::vec2 way = face.variations[static_cast<std::size_t>(k)][i];
+      equations.ways.block<2, 1>(row, k) =
+          seen * turn.leftCols<2>() * Eigen::Vector2f(way.x, way.y);
+    }
+    equations.miss.segment<2>(row) = weight * Eigen::Vector2f(by.x, by.y);
+  }
+  return equations;
+}
+
+/// Draws doses to 0 and to those of the other side, and keeps them within their ranges. `sparse`:
+/// small doses more than large ones.
+void Fitting::Draw(Normal& normal, const Doing& doing, bool sparse) const {
+  const Vector sureness = normal.matrix.diagonal().cwiseMax(0.0F).cwiseSqrt();
+  for (int k = 0; k < kPose; ++k) normal.matrix(k, k) += 1e-3F;
+  for (int k = kPose; k < normal.down.size(); ++k) {
+    const auto c = static_cast<std::size_t>(k - kPose);
+    const Channel& channel = face.channels[c];
+    const float dose = doing.doses[c], usual = channel.usual();
+    normal.matrix(k, k) += kRidge / (usual * usual);
+    normal.down[k] -= kRidge * dose / (usual * usual);
+    const std::size_t other = opposite[c];
+    if (channel.kind == Channel::Kind::kUnit) {
+      const float both = other == FrameFit::kNone ? dose : 0.5F * (dose + doing.doses[other]);
+      normal.down[k] -= sparse ? kSparse * sureness[k] * kSmallDose / (kSmallDose + both) : kLean;
+    }
+    if (other != FrameFit::kNone) {
+      const float together =
+          (channel.kind == Channel::Kind::kUnit ? kTogether : kEyesTogether) / (usual * usual);
+      normal.matrix(k, k) += together;
+      normal.matrix(k, kPose + static_cast<int>(other)) -= together;
+      normal.down[k] -= together * (dose - doing.doses[other]);
+    }
+    normal.low[k] = channel.lowest() - dose;
+    normal.high[k] = channel.highest() - dose;
+  }
+}
+
+/// The state after a step.
+void Fitting::Move(Doing& doing, const Vector& by) const {
+  const Eigen::Vector3f axis = by.head<3>();
+  if (axis.norm() > 0) {
+    doing.pose.turn = Back(Eigen::AngleAxisf(axis.norm(), axis.normalized()).toRotationMatrix() *
+                           Of(doing.pose.turn));
+  }
+  doing.pose.place += glm::vec3(by[3], by[4], by[5]);
+  doing.pose.place.z = std::min(doing.pose.place.z, kNearest);
+  for (std::size_t c = 0; c + kPose < static_cast<std::size_t>(by.size()); ++c) {
+    const Channel& channel = face.channels[c];
+    doing.doses[c] = std::clamp(doing.doses[c] + by[static_cast<Eigen::Index>(c) + kPose],
+                                channel.lowest(), channel.highest());
+  }
 }
 
 }  // namespace
@@ -82,123 +213,40 @@ Doing FrameFit::Guess(std::span<const glm::vec2> places) const {
 
 Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, const Doing& start,
                       What what) const {
-  const bool units = what != What::kPose;
-  const auto channels = static_cast<int>(face_.channels.size());
-  const int unknowns = kPose + (units ? channels : 0);
+  const Fitting fitting{face_, lens_, opposite_};
   Doing doing = start;
   // Only where the turn is known, a variation is none of the turn's.
-  const auto variations =
-      static_cast<Eigen::Index>(what == What::kDoses ? face_.variations.size() : 0);
-  Vector varied = Vector::Zero(variations);  // by how much along each
-  std::vector<float> misses(kPoints);
+  const bool varies = what == What::kDoses && !face_.variations.empty();
+  // By how much along each.
+  Vector varied = Vector::Zero(varies ? static_cast<Eigen::Index>(face_.variations.size()) : 0);
+  std::vector<float> misses;
   for (int round = 0; round < kRounds; ++round) {
-    const Points moved = Moved(face_, rest, doing.doses);
-    const Eigen::Matrix3f turn = Of(doing.pose.turn);
-    const float away = -doing.pose.place.z;
-    // Beside the person's rest, what the network sees of a face turned alike is off alike.
-    const float off_by_turn =
-        what == What::kDoses ? std::min(glm::length(SeenTurn(doing.pose)) / kFarTurn, 1.5F) : 1;
-    Matrix slopes(2 * kPoints, unknowns);
-    Matrix ways(2 * kPoints, variations);
-    Vector miss(2 * kPoints);
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      const glm::vec3 q = doing.pose(moved[i]);
-      const float depth = -q.z;
-      const glm::vec2 by =
-          (places[i] - SeenAt(face_, lens_, doing.pose, i, moved[i])) * (away / lens_.focal);
-      misses[i] = glm::length(by);
-      glm::vec3 variation(0);
-      for (Eigen::Index k = 0; k < variations; ++k) {
-        variation += varied[k] * glm::vec3(face_.variations[static_cast<std::size_t>(k)][i], 0);
-      }
-      const glm::vec2 varies(doing.pose.turn * variation);
-      const float unsure =
-          variations > 0 ? std::hypot(kUnsureOfDoses, face_.remainder[i]) : kUnsure;
-      const float sure = 1 / std::hypot(unsure, off_by_turn * face_.spread[i]);
-      const bool hidden = i >= kIris && EyeIsShut(face_, doing.doses, i);
-      const float off = glm::length(by - glm::vec2(varies.x, -varies.y)) * sure;
-      const float weight = hidden ? 0 : sure * (off > kHuber ? std::sqrt(kHuber / off) : 1.0F);
-      Eigen::Matrix<float, 2, 3> seen;
-      seen << 1, 0, q.x / depth, 0, -1, -q.y / depth;
-      seen *= weight * away / depth;
-      const auto row = static_cast<Eigen::Index>(2 * i);
-      const Eigen::Vector3f arm = turn * Of(moved[i]);
-      Eigen::Matrix3f cross;
-      cross << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
-      slopes.block<2, 3>(row, 0) = seen * cross;
-      slopes.block<2, 3>(row, 3) = seen;
-      if (units) {
-        const Eigen::Matrix<float, 2, 3> by_place = seen * turn;
-        for (int c = 0; c < channels; ++c) {
-          const auto k = static_cast<std::size_t>(c);
-          slopes.block<2, 1>(row, kPose + c) =
-              by_place * Of(face_.channels[k].Slope(i, doing.doses[k]));
-        }
-      }
-      for (Eigen::Index k = 0; k < variations; ++k) {
-        const glm::vec2 way = face_.variations[static_cast<std::size_t>(k)][i];
-        ways.block<2, 1>(row, k) = seen * turn.leftCols<2>() * Eigen::Vector2f(way.x, way.y);
-      }
-      miss.segment<2>(row) = weight * Eigen::Vector2f(by.x, by.y);
-    }
-    Matrix normal = slopes.transpose() * slopes;
-    Vector down = slopes.transpose() * miss;
+    Equations equations = fitting.EquationsAt(rest, places, doing, varied, what);
+    const auto& [slopes, ways, miss, _] = equations;
+    Normal normal{.matrix = slopes.transpose() * slopes,
+                  .down = slopes.transpose() * miss,
+                  .low = Vector::Constant(slopes.cols(), -kAny),
+                  .high = Vector::Constant(slopes.cols(), kAny)};
+    if (what == What::kDoses) normal.low.head<3>().setZero(), normal.high.head<3>().setZero();
     // Variations have no bounds, so they are solved for by themselves (the Schur complement).
     const Matrix shared = ways.transpose() * slopes;
     const Vector along = ways.transpose() * miss;
     Eigen::LDLT<Matrix> own;
-    if (variations > 0) {
+    if (varies) {
       Matrix ways_normal = ways.transpose() * ways;
       ways_normal.diagonal() += SureOfNone(face_, doing.doses, round == 0);
       own.compute(ways_normal);
-      normal -= shared.transpose() * own.solve(shared);
-      down -= shared.transpose() * own.solve(along);
+      normal.matrix -= shared.transpose() * own.solve(shared);
+      normal.down -= shared.transpose() * own.solve(along);
     }
-    constexpr float kAny = 1e6F;
-    Vector low = Vector::Constant(unknowns, -kAny), high = Vector::Constant(unknowns, kAny);
-    const Vector sureness = normal.diagonal().cwiseMax(0.0F).cwiseSqrt();
-    for (int k = 0; k < kPose; ++k) normal(k, k) += 1e-3F;
-    if (what == What::kDoses) low.head<3>().setZero(), high.head<3>().setZero();
-    for (int c = 0; c < unknowns - kPose; ++c) {
-      const Channel& channel = face_.channels[static_cast<std::size_t>(c)];
-      const float dose = doing.doses[static_cast<std::size_t>(c)], usual = channel.usual();
-      const int k = kPose + c;
-      normal(k, k) += kRidge / (usual * usual);
-      down[k] -= kRidge * dose / (usual * usual);
-      const std::size_t other = opposite_[static_cast<std::size_t>(c)];
-      if (channel.kind == Channel::Kind::kUnit) {
-        const float both = other == kNone ? dose : 0.5F * (dose + doing.doses[other]);
-        const bool sparse = variations > 0 && round > 0;
-        down[k] -= sparse ? kSparse * sureness[k] * kSmallDose / (kSmallDose + both) : kLean;
-      }
-      if (other != kNone) {
-        const float together =
-            (channel.kind == Channel::Kind::kUnit ? kTogether : kEyesTogether) / (usual * usual);
-        normal(k, k) += together;
-        normal(k, kPose + static_cast<int>(other)) -= together;
-        down[k] -= together * (dose - doing.doses[other]);
-      }
-      low[k] = channel.lowest() - dose;
-      high[k] = channel.highest() - dose;
-    }
-    const Vector by = BoundedSolve(normal, down, low, high);
-    if (variations > 0) varied = own.solve(along - shared * by);
-    const Eigen::Vector3f axis = by.head<3>();
-    if (axis.norm() > 0) {
-      doing.pose.turn =
-          Back(Eigen::AngleAxisf(axis.norm(), axis.normalized()).toRotationMatrix() * turn);
-    }
-    doing.pose.place += glm::vec3(by[3], by[4], by[5]);
-    doing.pose.place.z = std::min(doing.pose.place.z, -150.0F);
-    for (int c = 0; c < unknowns - kPose; ++c) {
-      const auto k = static_cast<std::size_t>(c);
-      const Channel& channel = face_.channels[k];
-      doing.doses[k] =
-          std::clamp(doing.doses[k] + by[kPose + c], channel.lowest(), channel.highest());
-    }
+    fitting.Draw(normal, doing, varies && round > 0);
+    const Vector by = BoundedSolve(normal.matrix, normal.down, normal.low, normal.high);
+    if (varies) varied = own.solve(along - shared * by);
+    fitting.Move(doing, by);
+    misses = std::move(equations.misses);
     constexpr float kStill = 2e-4F;
     const bool still = by.head<3>().norm() < kStill && by.segment<3>(3).norm() < 0.05F;
-    if (still && round > 2 && variations == 0) break;
+    if (still && round > 2 && !varies) break;
   }
   std::ranges::nth_element(misses, misses.begin() + kPoints / 2);
   doing.miss = misses[kPoints / 2];

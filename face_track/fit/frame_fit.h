@@ -29,6 +29,7 @@ class FrameFit {
  public:
   FrameFit(const SeenFace& face, const Lens& lens);
 
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);  ///< no channel
   enum class What { kPose, kPoseAndDoses, kDoses };  ///< kDoses: the turn stays as it is
   /// From `start`, whose doses are all there.
   Doing Solve(const Points& rest, std::span<const glm::vec2> places, const Doing& start,
@@ -42,7 +43,6 @@ class FrameFit {
   const Lens& lens() const { return lens_; }
 
  private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   const SeenFace& face_;
   Lens lens_;
   std::vector<std::size_t> opposite_;  ///< of each channel that of the other side; kNone
