@@ -1,7 +1,7 @@
 // How near the voice-driven mouth comes to the text-driven one, in mm on the built-in head as it
 // speaks (MouthScale 30): for voices of a training (--takes), for the people of Debian's
 // pocketsphinx-testdata (truth by our aligner, with the text), and for what is no speech.
-//   vdm_bench NET --takes FILE --voices rms,british-f3
+//   vdm_bench NET --words NET --takes FILE --voices rms,british-f3
 // With --triphones FILE the mouth is that of the triphones in place of NET's; for takes by the
 // times of the engine and, for a voice that NET and the triphones have not learned, by those that
 // the aligner finds with the text. With --whole the words of each recording are recognised first,
@@ -48,6 +48,7 @@ T OrThrow(vm::Result<T> result) {
 
 struct Bench {
   vdm::MouthNet net;
+  std::optional<vdm::MouthNet> words{};  // heard beside it
   std::optional<vdm::TriphoneModel> triphones{};
   std::unique_ptr<vdm::RecordingReader> reader{};  // of words, before a sound is heard; or none
   fsm::MotionTables tables;
@@ -76,9 +77,9 @@ struct Bench {
 
   /// The gap at each hop of a sound, as it comes out of a stream.
   std::vector<double> Gaps(std::vector<std::int16_t> samples) {
-    const auto words = reader ? reader->Read(samples) : vdm::RecordedMouth{};
+    const auto recorded = reader ? reader->Read(samples) : vdm::RecordedMouth{};
     const std::clock_t start = std::clock();
-    vdm::MouthTracker tracker(net, warp);
+    vdm::MouthTracker tracker(net, warp, words ? &*words : nullptr);
     samples.resize(samples.size() + tracker.ahead_samples() + tracker.hop_samples());
     std::vector<vdm::MouthTracker::Moment> moments;
     for (std::size_t at = 0; at < samples.size(); at += 320) {
@@ -90,7 +91,7 @@ struct Bench {
     sound_s += static_cast<double>(samples.size()) / 16000;
     std::vector<double> gaps;
     for (auto& [sample, frame] : moments) {
-      words.Blend(sample, frame);
+      recorded.Blend(sample, frame);
       gaps.push_back(GapMm(frame.mouth, frame.seal, frame.tongue));
     }
     return gaps;
@@ -332,11 +333,12 @@ void TestNoSpeech(Bench& bench) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string net, takes, triphones;
+  std::string net, words, takes, triphones;
   std::vector<std::string> voices;
   bool speakers = false;
   CLI::App app("How near the voice-driven mouth comes to the text-driven one");
   app.add_option("net", net, "A network's file")->required();
+  app.add_option("--words", words, "A network of words, heard beside it");
   app.add_option("--takes", takes, "Speech of a training (the file takes of vdm_train --work)");
   app.add_option("--voices", voices, "Which of its voices")->delimiter(',');
   app.add_option("--triphones", triphones,
@@ -351,9 +353,12 @@ int main(int argc, char** argv) {
                  "Recordings of people with their text (a list as for vdm_train --people)");
   CLI11_PARSE(app, argc, argv);
   try {
-    std::ifstream file(net);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
-    Bench bench{.net = OrThrow(vdm::ParseMouthNet(net, text)),
+    const auto read = [](const std::string& path) {
+      std::ifstream file(path);
+      const std::string text(std::istreambuf_iterator<char>(file), {});
+      return OrThrow(vdm::ParseMouthNet(path, text));
+    };
+    Bench bench{.net = read(net),
                 .tables = OrThrow(fsm::MotionTables::Load()),
                 .head = fsm::MakeHead("galatea")};
     if (!triphones.empty()) {
@@ -362,6 +367,7 @@ int main(int argc, char** argv) {
       bench.triphones = OrThrow(vdm::ParseTriphones(triphones, said));
     }
     bench.every = every;
+    if (!words.empty()) bench.words = read(words);
     if (whole) bench.reader = OrThrow(vdm::RecordingReader::Open());
     std::cout
         << "| voice | r of the gap | rms mm | size | closures seen | shut by mistake | lag ms |\n"

@@ -39,8 +39,11 @@ vm::Result<NewSpeech> SpeechOfSound(const std::string& sound, fsm::MotionTables 
   const vdm::MouthNet& net =
       vdm::ShippedNet(vdm::CanMakeFeatures(vdm::FeatureKind::kPhones) ? vdm::FeatureKind::kPhones
                                                                       : vdm::FeatureKind::kMel);
-  vdm::MouthTracker tracker(net);
-  const vdm::RecordedMouth words = vdm::ReadWords(*samples);
+  const bool words_heard =
+      net.features == vdm::FeatureKind::kPhones && vdm::CanMakeFeatures(vdm::FeatureKind::kWords);
+  vdm::MouthTracker tracker(net, 1,
+                            words_heard ? &vdm::ShippedNet(vdm::FeatureKind::kWords) : nullptr);
+  const vdm::RecordedMouth words = vdm::ReadWords(*samples, "film_dub");
   const std::size_t length = samples->size();
   samples->resize(length + tracker.ahead_samples() + tracker.hop_samples());
   for (auto& moment : tracker.Add(*samples)) {

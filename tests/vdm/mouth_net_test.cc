@@ -36,7 +36,8 @@ TEST(MouthNetTest, WhatIsWrittenIsReadAndWrittenTheSame) {
 TEST(MouthNetTest, DamageIsToldWithItsLine) {
   const std::string whole = FormatMouthNet(MadeNet());
   EXPECT_EQ(ErrorOf(""), "x.net:0: the end found, 'features' expected");
-  EXPECT_EQ(ErrorOf("features smell\n"), "x.net:1: 'smell' found, mel, phones or cepstra expected");
+  EXPECT_EQ(ErrorOf("features smell\n"),
+            "x.net:1: 'smell' found, mel, phones, cepstra or words expected");
   EXPECT_NE(ErrorOf("# a comment\nwrong mel\n").find("x.net:2: 'wrong' found, 'features' expected"),
             std::string::npos);
   EXPECT_NE(ErrorOf(Changed("relu", "tanh")).find("x.net:5: 'tanh' found, relu or linear"),

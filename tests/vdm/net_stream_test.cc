@@ -65,5 +65,41 @@ TEST(MouthTrackerTest, MomentsComeInTimeAndDoNotDependOnThePieces) {
   EXPECT_EQ(next, expected.size());
 }
 
+TEST(MouthTrackerTest, TwoNetworksAreMixedByWhatTheyMean) {
+  const MouthNet net = MadeNet();
+  MouthNet other = net;
+  // The same shapes, told by other means and scales.
+  TimeDelayLayer& last = other.net.layers.back();
+  for (std::size_t i = 0; i < kShapeNumbers; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    other.means[i] = net.means[i] + 1;
+    other.scales[i] = 2 * net.scales[i];
+    last.weights.row(row) /= 2;
+    last.biases[row] = (net.scales[i] * last.biases[row] - 1) / other.scales[i];
+  }
+  std::vector<std::int16_t> sound(4000);
+  for (std::size_t i = 0; i < sound.size(); ++i)
+    sound[i] = static_cast<std::int16_t>((i * i) % 7001);
+  MouthTracker twice(net, 1, &net), both(net, 1, &other);
+  const auto expected = twice.Add(sound), mixed = both.Add(sound);
+  ASSERT_EQ(mixed.size(), expected.size());
+  ASSERT_GT(mixed.size(), 10U);
+  for (std::size_t k = 0; k < mixed.size(); ++k) {
+    for (std::size_t i = 0; i < kMouthParameters; ++i) {
+      EXPECT_NEAR(mixed[k].frame.mouth[i], expected[k].frame.mouth[i], 1e-3F);
+    }
+  }
+}
+
+TEST(MouthTrackerTest, TheSlowerOfTwoNetworksDecidesWhenAMomentIsSaid) {
+  const MouthNet net = MadeNet();
+  MouthNet slower = net;
+  for (int& offset : slower.net.layers.front().offsets) offset += 3;
+  MouthTracker one(net), both(net, 1, &slower);
+  EXPECT_EQ(both.ahead_samples(), one.ahead_samples() + 3 * one.hop_samples());
+  const std::vector<std::int16_t> sound(4000);
+  EXPECT_EQ(both.Add(sound).size() + 3, one.Add(sound).size());
+}
+
 }  // namespace
 }  // namespace vdm

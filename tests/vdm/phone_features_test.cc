@@ -6,65 +6,15 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
+
+#include "tests/vdm/hand_model.h"
 
 namespace vdm {
 namespace {
 
-/// A model of two phones and 32 Gaussians a codebook, written as Sphinx does.
-class HandModel {
- public:
-  HandModel() {
-    std::filesystem::create_directories(folder);
-    Definition("BMDF");
-    Gaussians("means", [](std::size_t phone, std::size_t stream, std::size_t density) {
-      return density == 0 ? static_cast<float>(phone + stream) : 1000.0F;
-    });
-    Gaussians("variances", [](std::size_t, std::size_t stream, std::size_t) {
-      return 1.0F + static_cast<float>(stream);
-    });
-    Weights(6);
-  }
-  ~HandModel() { std::filesystem::remove_all(folder); }
-  template <typename T>
-  static std::string Bytes(T value) {
-    return {reinterpret_cast<const char*>(&value), sizeof value};
-  }
-  void Write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder / name, std::ios::binary) << bytes;
-  }
-  void Definition(const std::string& magic) const {
-    std::string bytes = magic + Bytes(1U) + Bytes(4U) + "text";
-    for (const unsigned n : {2U, 2U, 3U, 6U, 6U, 2U, 2U, 3U, 0U, 1U}) bytes += Bytes(n);
-    Write("mdef", bytes + std::string("AA\0SIL\0", 7));
-  }
-  template <typename Value>
-  void Gaussians(const std::string& name, Value value, unsigned streams = 3) const {
-    std::string bytes = "s3\nversion 1.0\nendhdr\n" + Bytes(0x11223344U);
-    for (const unsigned n : {2U, streams, 32U, 13U, 13U, 13U, 2U * 3U * 32U * 13U}) {
-      bytes += Bytes(n);
-    }
-    for (std::size_t i = 0; i < 2U * 3U * 32U; ++i) {
-      for (int k = 0; k < 13; ++k) bytes += Bytes(float{value(i / 96, i / 32 % 3, i % 32)});
-    }
-    Write(name, bytes);
-  }
-  /// Density 0 of phone AA's middle state weighs less by 10 steps.
-  void Weights(unsigned states) const {
-    std::string bytes =
-        Bytes(5U) + std::string("head\0", 5) + Bytes(0U) + Bytes(32U) + Bytes(states);
-    for (int row = 0; row < 3 * 32; ++row) {
-      for (unsigned s = 0; s < states; ++s) bytes += static_cast<char>(s == 1 ? 10 : 0);
-    }
-    Write("sendump", bytes);
-  }
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "vdm_phone_model";
-};
-
 TEST(PhoneModelTest, LikelihoodsAreThoseOfTheFormula) {
-  const HandModel hand;
+  const HandModel hand({"AA", "SIL"}, "vdm_phone_model");
   const auto model = PhoneModel::Read(hand.folder);
   ASSERT_TRUE(model) << model.error().text;
   EXPECT_EQ((*model)->phones(), (std::vector<std::string>{"AA", "SIL"}));
@@ -90,7 +40,7 @@ TEST(PhoneModelTest, LikelihoodsAreThoseOfTheFormula) {
 }
 
 TEST(PhoneModelTest, DamageIsToldWithTheFile) {
-  const HandModel hand;
+  const HandModel hand({"AA", "SIL"}, "vdm_phone_model");
   const auto error = [&] { return PhoneModel::Read(hand.folder).error().text; };
   const std::string folder = hand.folder.string();
   hand.Weights(7);

@@ -28,7 +28,7 @@ constexpr std::size_t kMaxTriphoneBytes = std::size_t{8} << 20;
 struct Options {
   std::string file, print = "csv", net_file, head_file, emotions_file, speakers_folder;
   std::string phonemes_file, triphones_file;  // for the track of phonemes
-  bool live = false, cepstra = false, mel = false, head = false, no_words = false;
+  bool live = false, cepstra = false, mel = false, phones = false, head = false, no_words = false;
   std::optional<vdm::MouthNet> net;
   std::optional<vdm::HeadNet> head_net;
   std::optional<vdm::Discriminant> emotions;
@@ -43,6 +43,12 @@ T OrThrow(vm::Result<T> result) {
 const vdm::MouthNet& NetOf(const Options& options, vdm::FeatureKind features) {
   const bool own = options.net && options.net->features == features;
   return own ? *options.net : vdm::ShippedNet(features);
+}
+
+/// That of words is heard beside that of phones, where both can be.
+const vdm::MouthNet* WordsNet(const Options& options) {
+  return vdm::CanMakeFeatures(vdm::FeatureKind::kWords) ? &NetOf(options, vdm::FeatureKind::kWords)
+                                                        : nullptr;
 }
 
 /// A file given is taken for Head.auto = ON.
@@ -97,10 +103,12 @@ int BeforeStart(Options& options) {
     throw std::runtime_error("the head's network knows other sounds than the mouth's");
   }
   // Who asks for a network wants to see that one; prosody is none of words.
-  const bool as_heard = options.no_words || options.net || options.cepstra || options.mel ||
-                        options.print == "prosody";
-  const auto words = as_heard ? vdm::RecordedMouth{} : vdm::ReadWords(samples);
-  std::cout << vdm::PrintTrack(mouth, head, words, samples, options.print) << std::flush;
+  const bool alone = options.net || options.cepstra || options.mel || options.phones ||
+                     kind != vdm::FeatureKind::kPhones || options.print == "prosody";
+  const vdm::TrackNets nets{mouth, alone ? nullptr : WordsNet(options), head};
+  const auto words =
+      alone || options.no_words ? vdm::RecordedMouth{} : vdm::ReadWords(samples, "vdm");
+  std::cout << vdm::PrintTrack(nets, words, samples, options.print) << std::flush;
   return std::cout ? 0 : 1;
 }
 
@@ -129,6 +137,8 @@ int main(int argc, char** argv) {
                           "The track by the small network of the papers");
              app.add_flag("--mel", options.mel,
                           "The track by mel bands alone, as where pocketsphinx-en-us is missing");
+             app.add_flag("--phones", options.phones,
+                          "The track by mel bands and phones, without any words");
              app.add_flag("--no-words", options.no_words,
                           "The track, and recordings on the virtual clock, as live sound moves "
                           "the mouth: without recognising the words first");
@@ -171,12 +181,13 @@ int main(int argc, char** argv) {
                      .clock_is_shared = [&clock] { return !clock.real(); },
                      .read_words = [&](const std::string& path) -> vdm::RecordedMouth {
                        const auto samples = sound::ReadSound(path);
-                       return samples && !options.no_words ? vdm::ReadWords(*samples)
+                       return samples && !options.no_words ? vdm::ReadWords(*samples, "vdm")
                                                            : vdm::RecordedMouth{};
                      },
                      .phones = vdm::CanMakeFeatures(vdm::FeatureKind::kPhones)
                                    ? &NetOf(options, vdm::FeatureKind::kPhones)
                                    : nullptr,
+                     .words = WordsNet(options),
                      .mel = &NetOf(options, vdm::FeatureKind::kMel),
                      .cepstra = &NetOf(options, vdm::FeatureKind::kCepstra),
                      .head = &HeadOf(options),

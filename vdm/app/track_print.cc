@@ -28,19 +28,18 @@ struct Shown {
 /// All moments up to the sound's end; behind it silence is heard as long as the networks need.
 /// `heard`, if it is given, is called after each moment that was heard.
 std::vector<Shown> Moments(
-    const MouthNet& net, const HeadNet* head, const RecordedMouth& words,
-    std::span<const std::int16_t> samples,
+    const TrackNets& nets, const RecordedMouth& words, std::span<const std::int16_t> samples,
     const std::function<void(const MouthTracker::Moment&, const VoiceManner&)>& heard = {}) {
-  MouthTracker tracker(net);
+  MouthTracker tracker(nets.mouth, 1, nets.words);
   std::vector<Shown> shown;
   const auto show = [&](const MouthTracker::Moment& moment, const std::optional<HeadPose>& pose) {
     if (moment.sample < samples.size()) shown.push_back({moment, pose});
   };
-  VoiceManner manner({.head = head}, tracker.ahead_samples(), tracker.hop_samples());
+  VoiceManner manner({.head = nets.head}, tracker.ahead_samples(), tracker.hop_samples());
   std::vector<std::int16_t> sound(samples.begin(), samples.end());
   sound.resize(sound.size() + tracker.ahead_samples() + tracker.hop_samples() +
                VoiceManner::kHeadLate);
-  const bool mouth_alone = head == nullptr && !heard;
+  const bool mouth_alone = nets.head == nullptr && !heard;
   if (!mouth_alone) manner.Add(sound);
   for (MouthTracker::Moment& moment : tracker.Add(sound)) {
     words.Blend(moment.sample, moment.frame);
@@ -59,10 +58,10 @@ std::string HeadCells(const HeadPose& head) {
                      head.brow);
 }
 
-std::string PrintProsody(const MouthNet& net, std::span<const std::int16_t> samples) {
+std::string PrintProsody(const TrackNets& nets, std::span<const std::int16_t> samples) {
   std::string text =
       "ms,hz,voicing,power_db,tilt_db,speech,syllable,pitch_above,power_above,position\n";
-  Moments(net, nullptr, {}, samples, [&](const auto& moment, const VoiceManner& manner) {
+  Moments(nets, {}, samples, [&](const auto& moment, const VoiceManner& manner) {
     const ProsodyFrame& now = manner.prosody();
     const SpeakerUsual& usual = manner.stream().usual();
     const double pitch = now.hz > 0 ? usual.log_hz.Above(std::log(static_cast<double>(now.hz))) : 0;
@@ -114,11 +113,12 @@ std::string PrintLines(const std::vector<Shown>& moments) {
 
 }  // namespace
 
-std::string PrintTrack(const MouthNet& net, const HeadNet* head, const RecordedMouth& words,
+std::string PrintTrack(const TrackNets& nets, const RecordedMouth& words,
                        std::span<const std::int16_t> samples, const std::string& format) {
-  if (format == "prosody") return PrintProsody(net, samples);
-  const auto moments = Moments(net, head, words, samples);
-  return format == "csv" ? PrintTable(net.sounds, moments, head != nullptr) : PrintLines(moments);
+  if (format == "prosody") return PrintProsody({nets.mouth, nets.words, nullptr}, samples);
+  const auto moments = Moments(nets, words, samples);
+  return format == "csv" ? PrintTable(nets.mouth.sounds, moments, nets.head != nullptr)
+                         : PrintLines(moments);
 }
 
 vm::Result<std::string> PrintTrack(const TriphoneModel& model, const vm::PhonemeList& phonemes,

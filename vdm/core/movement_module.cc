@@ -66,7 +66,8 @@ void MovementModule::Renew(bool same_speaker) {
     TellMood("NEUTRAL", 0);
   }
   sender_.Finish();
-  tracker_ = std::make_unique<MouthTracker>(net(), speaker_.warp);
+  tracker_ = std::make_unique<MouthTracker>(net(), speaker_.warp,
+                                            mode_ == Mode::kWords ? options_.words : nullptr);
   words_ = {};
   manner_.reset();
   if (parts.head || parts.emotions) {

@@ -37,6 +37,7 @@ class MovementModule final : public vm::Module {
     /// time, so it is asked where nobody waits: on a clock that is shared.
     std::function<RecordedMouth(const std::string&)> read_words{};
     const MouthNet* phones = nullptr;   ///< for PHONES; null where its features cannot be made
+    const MouthNet* words = nullptr;    ///< for WORDS, beside `phones`; likewise
     const MouthNet* mel = nullptr;      ///< for Mouth.mode = MEL; outlives the module
     const MouthNet* cepstra = nullptr;  ///< for Mouth.mode = CEPSTRA; likewise
     const HeadNet* head = nullptr;      ///< for Head.auto = ON; likewise, as those below
@@ -56,7 +57,7 @@ class MovementModule final : public vm::Module {
   void Shutdown() override;
 
  private:
-  enum class Mode { kPhones, kMel, kCepstra, kOff };
+  enum class Mode { kWords, kPhones, kMel, kCepstra, kOff };
   // movement_slots.cc
   void DeclareRun();
   void DeclareInput();
@@ -86,11 +87,15 @@ class MovementModule final : public vm::Module {
   /// The shortest Delay with which frames are told before their time.
   vm::Time ShortestDelay() const;
   const MouthNet& net() const {
-    return mode_ == Mode::kCepstra  ? *options_.cepstra
-           : mode_ == Mode::kPhones ? *options_.phones
-                                    : *options_.mel;
+    return mode_ == Mode::kCepstra                           ? *options_.cepstra
+           : mode_ == Mode::kPhones || mode_ == Mode::kWords ? *options_.phones
+                                                             : *options_.mel;
   }
-  Mode BestMode() const { return options_.phones != nullptr ? Mode::kPhones : Mode::kMel; }
+  Mode BestMode() const {
+    return options_.phones == nullptr  ? Mode::kMel
+           : options_.words == nullptr ? Mode::kPhones
+                                       : Mode::kWords;
+  }
   void Learned(const vm::Result<Speaker>& met);
   vm::Result<void> SetMode(const std::string& word);
   /// The sound that comes is another one: nothing of what came before counts; or, of the

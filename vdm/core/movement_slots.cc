@@ -56,13 +56,16 @@ void MovementModule::DeclareInput() {
 }
 
 vm::Result<void> MovementModule::SetMode(const std::string& word) {
-  if (word == "PHONES" && options_.phones == nullptr) {
-    const auto can = CanMakeFeatures(FeatureKind::kPhones);
+  const bool words = word == "WORDS";
+  if ((words && (options_.words == nullptr || options_.phones == nullptr)) ||
+      (word == "PHONES" && options_.phones == nullptr)) {
+    const auto can = CanMakeFeatures(words ? FeatureKind::kWords : FeatureKind::kPhones);
     return vm::Fail(vm::Errc::kUnavailable,
-                    can ? "this program has no network for PHONES" : can.error().text);
+                    can ? "this program has no network for " + word : can.error().text);
   }
   best_ = word == "BEST";
   mode_ = best_              ? BestMode()
+          : words            ? Mode::kWords
           : word == "PHONES" ? Mode::kPhones
           : word == "MEL"    ? Mode::kMel
           : word == "OFF"    ? Mode::kOff
@@ -80,14 +83,15 @@ vm::Result<void> MovementModule::SetMode(const std::string& word) {
 void MovementModule::DeclareMouth() {
   slots_.Declare(
       {.name = "Mouth.mode",
-       .grammar = "BEST | PHONES | MEL | CEPSTRA | OFF",
+       .grammar = "BEST | WORDS | PHONES | MEL | CEPSTRA | OFF",
        .initial = "BEST",
        .help =
            "By what the mouth is found: PHONES, a network that sees mel bands over time and how "
-           "likely the phones of English are by Debian's pocketsphinx-en-us; MEL, one that sees "
-           "mel bands alone; BEST, PHONES where that model is installed and MEL else, and of a "
-           "recording on the virtual clock also its English words, which are recognised before "
-           "it begins; CEPSTRA, "
+           "likely the phones of English are by Debian's pocketsphinx-en-us; WORDS, that one and "
+           "another, which sees what phones the likeliest words of English would have; MEL, one "
+           "that sees mel bands alone; BEST, WORDS where that model is installed and MEL else, "
+           "and of a recording on the virtual clock also its English words, which are recognised "
+           "before it begins; CEPSTRA, "
            "the small one of the original's papers, which sees 20 LPC cepstra of one frame "
            "(Delay at least 56); OFF: the mouth rests.",
        .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
@@ -95,14 +99,15 @@ void MovementModule::DeclareMouth() {
          return value.word(0);
        }});
   slots_.Declare({.name = "Mouth.net",
-                  .grammar = "PHONES | MEL | CEPSTRA | OFF",
+                  .grammar = "WORDS | PHONES | MEL | CEPSTRA | OFF",
                   .access = vm::Access::kReadOnly,
                   .help = "What Mouth.mode comes to here.",
                   .on_inq = [this]() -> std::string {
-                    return mode_ == Mode::kPhones ? "PHONES"
-                           : mode_ == Mode::kMel  ? "MEL"
-                           : mode_ == Mode::kOff  ? "OFF"
-                                                  : "CEPSTRA";
+                    return mode_ == Mode::kWords    ? "WORDS"
+                           : mode_ == Mode::kPhones ? "PHONES"
+                           : mode_ == Mode::kMel    ? "MEL"
+                           : mode_ == Mode::kOff    ? "OFF"
+                                                    : "CEPSTRA";
                   }});
   slots_.Declare({.name = "Mouth.to",
                   .grammar = "NONE | <word>",

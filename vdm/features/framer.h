@@ -10,8 +10,10 @@ namespace vdm {
 /// there is silence. Pieces of any size give the same windows.
 class Framer {
  public:
-  /// REQUIRES: `hop` <= `window`, `window` even.
-  Framer(std::size_t window, std::size_t hop) : window_(window), hop_(hop), kept_(window / 2) {}
+  /// `early`: windows are centred so many samples before. REQUIRES: `hop` <= `window`, `window`
+  /// even.
+  Framer(std::size_t window, std::size_t hop, std::size_t early = 0)
+      : window_(window), hop_(hop), kept_(window / 2 + early) {}
 
   /// Calls `take(std::span<const std::int16_t>)` for each window that became complete.
   template <typename Take>

@@ -4,98 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <numbers>
+
+#include "vdm/features/model_definition.h"
+#include "vdm/features/model_file.h"
 
 namespace vdm {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;
-constexpr std::size_t kMostPhones = 256, kMostDensities = 4096, kMostSenones = 100'000;
+constexpr std::size_t kMostDensities = 4096;
 constexpr float kLeastVariance = 1e-4F;
-// A weight in sendump is a byte: minus the logarithm to the base 1.0001, over 1024.
-const double kWeightStep = 1024 * std::log(1.0001);
-
-/// Little-endian numbers out of a file of the model.
-class ModelFile {
- public:
-  static vm::Result<ModelFile> Open(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-      return vm::Fail(vm::Errc::kUnavailable,
-                      "cannot read '" + path + "' (Debian: pocketsphinx-en-us)");
-    }
-    ModelFile out;
-    out.path_ = path;
-    out.bytes_.assign(std::istreambuf_iterator<char>(file), {});
-    if (out.bytes_.size() > kMostBytes) return out.Wrong("longer than 64 MiB");
-    return out;
-  }
-  std::unexpected<vm::Error> Wrong(const std::string& what) const {
-    return vm::Fail(vm::Errc::kBadValue, path_ + ": " + what);
-  }
-  bool ok() const { return ok_; }
-  std::string Text(std::size_t count) {
-    if (bytes_.size() - at_ < count) ok_ = false;
-    std::string text = ok_ ? bytes_.substr(at_, count) : std::string();
-    if (ok_) at_ += count;
-    return text;
-  }
-  template <typename T>
-  T Value() {
-    T value{};
-    const std::string text = Text(sizeof value);
-    if (ok_) std::memcpy(&value, text.data(), sizeof value);
-    return value;
-  }
-  std::size_t Count() { return Value<std::uint32_t>(); }
-  /// Up to a zero.
-  std::string Word() {
-    const std::size_t end = bytes_.find('\0', at_);
-    if (end == std::string::npos) ok_ = false;
-    std::string word = ok_ ? Text(end - at_) : std::string();
-    Text(1);
-    return word;
-  }
-  bool Skip(std::string_view end) {
-    const std::size_t found = bytes_.find(end, at_);
-    ok_ = ok_ && found != std::string::npos;
-    if (ok_) at_ = found + end.size();
-    return ok_;
-  }
-
- private:
-  std::string path_, bytes_;
-  std::size_t at_ = 0;
-  bool ok_ = true;
-};
-
-struct Definition {
-  std::vector<std::string> phones{};
-  std::size_t senones = 0;
-};
-
-vm::Result<Definition> ReadDefinition(const std::string& folder) {
-  auto file = ModelFile::Open(folder + "/mdef");
-  if (!file) return std::unexpected(file.error());
-  if (file->Text(4) != "BMDF" || file->Count() != 1) {
-    return file->Wrong("no binary model definition of version 1 found");
-  }
-  file->Text(file->Count());  // a description of the format
-  const std::size_t phones = file->Count();
-  file->Count();  // phones in context
-  const std::size_t states = file->Count(), plain = file->Count();
-  Definition out{.senones = file->Count()};
-  for (int skipped = 0; skipped < 5; ++skipped) file->Count();
-  if (!file->ok() || phones == 0 || phones > kMostPhones || states != PhoneModel::kStates ||
-      plain != phones * PhoneModel::kStates || out.senones < plain || out.senones > kMostSenones) {
-    return file->Wrong("a model with three states for each phone expected");
-  }
-  for (std::size_t i = 0; i < phones; ++i) out.phones.push_back(file->Word());
-  if (!file->ok()) return file->Wrong("ends within the names of the phones");
-  return out;
-}
 
 struct Gaussians {
   std::size_t densities = 0;
@@ -129,31 +47,12 @@ vm::Result<Gaussians> ReadGaussians(const std::string& path, std::size_t phones)
   return out;
 }
 
-/// Stream by stream, density by density: a byte for each senone.
-vm::Result<std::string> ReadWeights(const std::string& folder, std::size_t densities,
-                                    std::size_t senones) {
-  auto file = ModelFile::Open(folder + "/sendump");
-  if (!file) return std::unexpected(file.error());
-  bool plain = true;
-  std::size_t size = file->Count();
-  for (; file->ok() && size != 0; size = file->Count()) {
-    const std::string line = file->Text(size);
-    if (line.starts_with("cluster_count") && line.substr(0, 15) != "cluster_count 0") plain = false;
-  }
-  const std::size_t rows = file->Count(), columns = file->Count();
-  if (!file->ok() || !plain || rows != densities || columns != senones) {
-    return file->Wrong("weights of " + std::to_string(densities) + " densities in " +
-                       std::to_string(senones) + " states expected, without clusters");
-  }
-  std::string weights = file->Text(PhoneModel::kStreams * rows * columns);
-  if (!file->ok()) return file->Wrong("ends within its weights");
-  return weights;
-}
-
 }  // namespace
 
 vm::Result<std::shared_ptr<const PhoneModel>> PhoneModel::Read(const std::string& folder) {
-  auto definition = ReadDefinition(folder);
+  auto file = ModelFile::Open(folder + "/mdef");
+  if (!file) return std::unexpected(file.error());
+  auto definition = ReadDefinition(*file);
   if (!definition) return std::unexpected(definition.error());
   auto means = ReadGaussians(folder + "/means", definition->phones.size());
   if (!means) return std::unexpected(means.error());
@@ -188,7 +87,7 @@ vm::Result<std::shared_ptr<const PhoneModel>> PhoneModel::Read(const std::string
     for (std::size_t s = 0; s < kStates; ++s) {
       const auto byte = static_cast<unsigned char>(
           (*weights)[(stream * densities + density) * definition->senones + phone * kStates + s]);
-      block.weights[s][lane] = static_cast<float>(-kWeightStep * byte);
+      block.weights[s][lane] = WeightOf(byte);
     }
   }
   return model;
@@ -218,6 +117,22 @@ void PhoneModel::ScoreCodebook(std::size_t phone, std::size_t stream,
   for (std::size_t c = 0; c < columns.size(); ++c) {
     for (std::size_t s = 0; s < kStates; ++s) {
       states(static_cast<Eigen::Index>(phone * kStates + s), columns[c]) += best[c][s].maxCoeff();
+    }
+  }
+}
+
+void PhoneModel::Densities(std::size_t phone, const float* features,
+                           std::span<float> densities) const {
+  const Block* block = &blocks_[phone * kStreams * blocks_a_codebook_];
+  float* out = densities.data();
+  for (std::size_t stream = 0; stream < kStreams; ++stream) {
+    const float* x = features + stream * kStream;
+    for (std::size_t b = 0; b < blocks_a_codebook_; ++b, ++block, out += kBlock) {
+      Lane sum = block->constant;
+      for (std::size_t i = 0; i < kStream; ++i) {
+        sum += (block->square[i] * x[i] + block->linear[i]) * x[i];
+      }
+      Eigen::Map<Lane>{out} = sum;
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,14 @@ class PhoneModel {
   /// for each column of `features`. What a column gives does not depend on the others; together
   /// they are faster. REQUIRES: kFeatures rows.
   Eigen::MatrixXf Score(const Eigen::MatrixXf& features) const;
+  /// How many Gaussians a codebook has in each stream.
+  std::size_t densities() const { return blocks_a_codebook_ * kBlock; }
+  /// The natural logarithm of each Gaussian of a phone's codebook at kFeatures numbers, stream by
+  /// stream. REQUIRES: room for kStreams x densities().
+  void Densities(std::size_t phone, const float* features, std::span<float> densities) const;
 
  private:
-  static constexpr Eigen::Index kBlock = 8;  // Gaussians that are computed together
+  static constexpr std::size_t kBlock = 8;  // Gaussians that are computed together
   using Lane = Eigen::Array<float, kBlock, 1>;
   /// kBlock Gaussians of one stream: log N(x) = constant + sum of (square x^2 + linear x).
   struct Block {

@@ -5,21 +5,40 @@
 #include "vdm/features/cepstra_features.h"
 #include "vdm/features/mel_features.h"
 #include "vdm/features/phone_features.h"
+#include "vdm/words/word_features.h"
 
 namespace vdm {
 
 std::string_view FeatureName(FeatureKind kind) {
-  return kind == FeatureKind::kMel ? "mel" : kind == FeatureKind::kPhones ? "phones" : "cepstra";
+  switch (kind) {
+    case FeatureKind::kMel:
+      return "mel";
+    case FeatureKind::kPhones:
+      return "phones";
+    case FeatureKind::kCepstra:
+      return "cepstra";
+    case FeatureKind::kWords:
+      break;
+  }
+  return "words";
 }
 
 std::size_t FeatureSize(FeatureKind kind) {
-  return kind == FeatureKind::kMel      ? LevelNormaliser::kSize
-         : kind == FeatureKind::kPhones ? PhoneFeatures::kSize
-                                        : CepstraFeatures::kOrder;
+  switch (kind) {
+    case FeatureKind::kMel:
+      return LevelNormaliser::kSize;
+    case FeatureKind::kPhones:
+      return PhoneFeatures::kSize;
+    case FeatureKind::kCepstra:
+      return CepstraFeatures::kOrder;
+    case FeatureKind::kWords:
+      break;
+  }
+  return WordFeatures::kSize;
 }
 
 vm::Result<void> CanMakeFeatures(FeatureKind kind) {
-  if (kind != FeatureKind::kPhones) return {};
+  if (kind != FeatureKind::kPhones && kind != FeatureKind::kWords) return {};
   const auto model = InstalledPhoneModel();
   if (!model) return std::unexpected(model.error());
   if ((*model)->phones().size() != PhoneFeatures::kPhones) {
@@ -27,6 +46,9 @@ vm::Result<void> CanMakeFeatures(FeatureKind kind) {
                                              std::to_string((*model)->phones().size()) +
                                              " phones found, " +
                                              std::to_string(PhoneFeatures::kPhones) + " expected");
+  }
+  if (kind == FeatureKind::kWords && !InstalledWordTree()) {
+    return std::unexpected(InstalledWordTree().error());
   }
   return {};
 }
@@ -39,9 +61,11 @@ std::unique_ptr<SoundFeatures> MakeFeatures(FeatureKind kind, float warp) {
     case FeatureKind::kPhones:
       return std::make_unique<PhoneFeatures>(warp, *InstalledPhoneModel());
     case FeatureKind::kCepstra:
+      return std::make_unique<CepstraFeatures>();
+    case FeatureKind::kWords:
       break;
   }
-  return std::make_unique<CepstraFeatures>();
+  return std::make_unique<WordFeatures>(*InstalledWordTree());
 }
 
 }  // namespace vdm

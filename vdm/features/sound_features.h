@@ -17,8 +17,9 @@ enum class FeatureKind {
   kMel,      ///< 24 mel bands and two levels, each 10 ms; see MelFeatures
   kPhones,   ///< kMel and how likely the phones of English are; see PhoneFeatures
   kCepstra,  ///< 20 LPC cepstra, each 32 ms, as in the papers; see CepstraFeatures
+  kWords,    ///< the phones that words of English would have, each 10 ms; see WordFeatures
 };
-std::string_view FeatureName(FeatureKind kind);  ///< "mel", "phones", "cepstra"
+std::string_view FeatureName(FeatureKind kind);  ///< "mel", "phones", "cepstra", "words"
 std::size_t FeatureSize(FeatureKind kind);       ///< numbers in a vector
 
 /// One vector of numbers for each hop of sound, 16 kHz mono. Sound may come in pieces of any size;
@@ -34,9 +35,9 @@ class SoundFeatures {
   virtual void Add(std::span<const std::int16_t> samples, std::vector<float>& vectors) = 0;
 };
 
-/// `warp`, not of kCepstra: above 1 the spectrum is read at higher frequencies, as if the vocal
+/// `warp`, of kMel and kPhones: above 1 the spectrum is read at higher frequencies, as if the vocal
 /// tract were longer than it is; 1 for sound as it is, 0.5 .. 1.5. Throws std::runtime_error for
-/// kPhones if CanMakeFeatures says what is missing.
+/// kPhones and kWords if CanMakeFeatures says what is missing.
 vm::Result<void> CanMakeFeatures(FeatureKind kind);
 std::unique_ptr<SoundFeatures> MakeFeatures(FeatureKind kind, float warp = 1);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,12 +12,13 @@
 
 namespace vdm {
 
-/// Sound in, mouths out, as soon as a network can say them. 16 kHz mono, in pieces of any size.
-/// Lifetime: the network outlives it. Thread: none of its own; one instance, one thread.
+/// Sound in, mouths out, as soon as a network can say them, or two networks that hear the same by
+/// other features: what they say is mixed. 16 kHz mono, in pieces of any size. Lifetime: the
+/// networks outlive it. Thread: none of its own; one instance, one thread.
 class MouthTracker {
  public:
-  /// `warp`: see MakeFeatures.
-  explicit MouthTracker(const MouthNet& net, float warp = 1);
+  /// `warp`: see MakeFeatures. `second`: of the same sounds and hop, or none.
+  explicit MouthTracker(const MouthNet& net, float warp = 1, const MouthNet* second = nullptr);
 
   struct Moment {
     std::uint64_t sample = 0;  ///< counted from the first one added
@@ -26,15 +28,31 @@ class MouthTracker {
   std::vector<Moment> Add(std::span<const std::int16_t> samples);
   /// How many samples after a moment's own must have come before it is said.
   std::size_t ahead_samples() const;
-  std::size_t hop_samples() const { return features_->hop_samples(); }
+  std::size_t hop_samples() const { return first_.hop_samples(); }
 
  private:
-  const MouthNet& net_;
-  std::unique_ptr<SoundFeatures> features_;
-  NetStream stream_;
+  /// A network and what it has said that is not used yet.
+  class Listener {
+   public:
+    Listener(const MouthNet& net, float warp);
+    void Add(std::span<const std::int16_t> samples);
+    std::size_t ahead_samples() const;
+    std::size_t hop_samples() const { return features_->hop_samples(); }
+    const MouthNet& net() const { return net_; }
+    std::deque<Eigen::VectorXf> said{};
+
+   private:
+    const MouthNet& net_;
+    std::unique_ptr<SoundFeatures> features_;
+    NetStream stream_;
+    std::vector<float> vectors_{};
+  };
+  void Mix(Eigen::VectorXf& outputs, const Eigen::VectorXf& others) const;
+
+  Listener first_;
+  std::optional<Listener> second_;
   MouthMotion motion_;
   std::uint64_t moments_ = 0;
-  std::vector<float> vectors_;
 };
 
 }  // namespace vdm

@@ -23,7 +23,8 @@ constexpr float kLeastScale = 1e-6F;
 float WithoutDust(float value) { return std::abs(value) < 1e-30F ? 0 : value; }
 
 bool FeaturesNamed(std::string_view name, FeatureKind& out) {
-  for (const FeatureKind kind : {FeatureKind::kMel, FeatureKind::kPhones, FeatureKind::kCepstra}) {
+  for (const FeatureKind kind :
+       {FeatureKind::kMel, FeatureKind::kPhones, FeatureKind::kCepstra, FeatureKind::kWords}) {
     if (name != FeatureName(kind)) continue;
     out = kind;
     return true;
@@ -42,7 +43,8 @@ class Reader {
     if (auto words = lines_.Line("features", 1); !words) {
       return std::unexpected(words.error());
     } else if (!FeaturesNamed((*words)[1], out.features)) {
-      return Wrong("'" + std::string((*words)[1]) + "' found, mel, phones or cepstra expected");
+      return Wrong("'" + std::string((*words)[1]) +
+                   "' found, mel, phones, cepstra or words expected");
     }
     if (auto words = lines_.Line("sounds"); !words) {
       return std::unexpected(words.error());

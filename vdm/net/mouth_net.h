@@ -31,7 +31,7 @@ struct MouthNet {
 
 /// The text of a network. Lines: words between blanks, `#` begins a comment.
 ///
-///   features mel|phones|cepstra
+///   features mel|phones|cepstra|words
 ///   sounds NAME...
 ///   means NUMBER x 18              mouth parameters and tongue
 ///   scales NUMBER x 18

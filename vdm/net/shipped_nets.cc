@@ -3,6 +3,7 @@
 #include "embedded/cepstra_net.h"
 #include "embedded/mel_net.h"
 #include "embedded/phones_net.h"
+#include "embedded/words_net.h"
 #include "vdm/net/mouth_net.h"
 
 namespace vdm {
@@ -25,6 +26,10 @@ const MouthNet& ShippedNet(FeatureKind features) {
     case FeatureKind::kPhones: {
       static const MouthNet phones = ReadShipped("phones.net", embedded::phones_net());
       return phones;
+    }
+    case FeatureKind::kWords: {
+      static const MouthNet words = ReadShipped("words.net", embedded::words_net());
+      return words;
     }
     case FeatureKind::kCepstra:
       break;

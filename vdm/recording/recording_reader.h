@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "vdm/recording/recorded_mouth.h"
@@ -20,7 +21,7 @@ class RecordingReader {
 };
 
 /// The words of one recording; none where no reader can be opened, or in more than 20 minutes,
-/// which it says on standard error. So it does where it takes long.
-RecordedMouth ReadWords(const std::vector<std::int16_t>& samples);
+/// which it says on standard error in the name of `program`. So it does where it takes long.
+RecordedMouth ReadWords(const std::vector<std::int16_t>& samples, std::string_view program);
 
 }  // namespace vdm

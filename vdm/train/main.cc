@@ -224,8 +224,8 @@ int main(int argc, char** argv) {
                  "Folder for the speech and the course of the training, which goes on from there")
       ->capture_default_str();
   app.add_option("--features", options.features,
-                 "mel; phones, which needs pocketsphinx-en-us; or cepstra as in the papers")
-      ->check(CLI::IsMember({"mel", "phones", "cepstra"}))
+                 "mel; phones or words, which need pocketsphinx-en-us; or cepstra as in the papers")
+      ->check(CLI::IsMember({"mel", "phones", "words", "cepstra"}))
       ->capture_default_str();
   app.add_option(
          "--people", options.people,
@@ -287,6 +287,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (options.features == "cepstra") options.plan.features = vdm::FeatureKind::kCepstra;
   if (options.features == "phones") options.plan.features = vdm::FeatureKind::kPhones;
+  if (options.features == "words") options.plan.features = vdm::FeatureKind::kWords;
   options.head_plan.seed = options.plan.seed;
   if (!options.head_by_prosody) {
     options.head_plan.sounds = vdm::ShippedNet(vdm::FeatureKind::kMel).sounds.size();

@@ -77,6 +77,12 @@ MouthNet StartingNet(const TrainingPlan& plan, const std::vector<Take>& takes,
     layers.push_back(MakeLayer(20, {0}, outputs, false, dice));
     return net;
   }
+  if (plan.features == FeatureKind::kWords) {
+    layers.push_back(MakeLayer(inputs, {-10, -6, -2, 2}, w, true, dice));
+    layers.push_back(MakeLayer(w, {-2, 0}, w, true, dice));
+    layers.push_back(MakeLayer(w, {0}, outputs, false, dice));
+    return net;
+  }
   layers.push_back(MakeLayer(inputs, {-3, -2, -1, 0, 1, 2}, w, true, dice));
   layers.push_back(MakeLayer(w, {-4, -2, 0, 2}, w, true, dice));
   std::vector<int> past = {-8, -4, 0};
@@ -156,7 +162,9 @@ void Training::Learn(const std::vector<std::size_t>& items, Dice dice, Lane& lan
     const Eigen::MatrixXf wanted = Wanted(lesson);
     if (plan_.features != FeatureKind::kCepstra) {
       Dice chance = own.For(7);
-      if (chance.Chance(plan_.masking)) Mask(lesson.features, plan_.features, chance);
+      const bool masked = chance.Chance(plan_.masking);
+      if (masked && plan_.features != FeatureKind::kWords)
+        Mask(lesson.features, plan_.features, chance);
       lane.propagation.Disturb(plan_.disturbance, chance);
     }
     const MouthLoss loss = LossOf(net_, lane.propagation.Forward(lesson.features), wanted, slope);
