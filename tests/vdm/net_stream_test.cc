@@ -91,6 +91,19 @@ TEST(MouthTrackerTest, TwoNetworksAreMixedByWhatTheyMean) {
   }
 }
 
+TEST(MouthTrackerTest, TheSecondNetworkMovesTheMouth) {
+  const MouthNet net = MadeNet();
+  MouthNet open = net;
+  open.means[11] += 5;  // degrees of the jaw
+  const std::vector<std::int16_t> sound(4000);
+  MouthTracker twice(net, 1, &net), both(net, 1, &open);
+  const auto before = twice.Add(sound), mixed = both.Add(sound);
+  ASSERT_EQ(mixed.size(), before.size());
+  ASSERT_GT(mixed.size(), 10U);
+  EXPECT_GT(mixed[9].frame.mouth[11], before[9].frame.mouth[11] + 1);
+  EXPECT_LT(mixed[9].frame.mouth[11], before[9].frame.mouth[11] + 5);
+}
+
 TEST(MouthTrackerTest, TheSlowerOfTwoNetworksDecidesWhenAMomentIsSaid) {
   const MouthNet net = MadeNet();
   MouthNet slower = net;

@@ -5,29 +5,17 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
-#include "ssm/flite/flite_engine.h"
 #include "ssm/voice/wav_file.h"
+#include "tests/vdm/spoken.h"
 #include "vdm/train/forced_alignment.h"
 #include "vdm/train/lesson.h"
 
 namespace vdm {
 namespace {
-
-Take Spoken(const std::string& text) {
-  const auto engine = ssm::MakeFliteEngine();
-  const std::atomic<bool> cancelled{false};
-  auto plan = engine->Plan({{.text = text, .voice = "rms"}}, cancelled);
-  EXPECT_TRUE(plan);
-  ssm::SampleBuffer buffer(ssm::ToFrames(vm::TotalDuration(plan->phonemes)));
-  EXPECT_TRUE(engine->Render(*plan, buffer));
-  const auto ready = buffer.Ready();
-  return {"rms", {ready.begin(), ready.end()}, std::move(plan->phonemes)};
-}
 
 /// Middles of phonemes but pauses, in ms.
 std::vector<double> Middles(const vm::PhonemeList& phonemes) {

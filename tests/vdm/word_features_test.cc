@@ -5,36 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 
-#include "ssm/flite/flite_engine.h"
+#include "tests/vdm/spoken.h"
+#include "vdm/mouth/mouth_tracker.h"
 #include "vm_protocol/core/lower_case.h"
 
 namespace vdm {
 namespace {
 
-struct Said {
-  std::vector<std::int16_t> samples;
-  vm::PhonemeList phonemes;
-
-  std::string At(double ms) const {
-    for (const vm::Phoneme& phoneme : phonemes) {
-      if (ms < static_cast<double>(phoneme.duration.count())) return phoneme.name;
-      ms -= static_cast<double>(phoneme.duration.count());
-    }
-    return "pau";
+std::string PhoneAt(const Take& said, double ms) {
+  for (const vm::Phoneme& phoneme : said.phonemes) {
+    if (ms < static_cast<double>(phoneme.duration.count())) return phoneme.name;
+    ms -= static_cast<double>(phoneme.duration.count());
   }
-};
-
-Said Say(const std::string& text) {
-  const auto engine = ssm::MakeFliteEngine();
-  const std::atomic<bool> cancelled{false};
-  auto plan = engine->Plan({{.text = text, .voice = "rms"}}, cancelled);
-  EXPECT_TRUE(plan);
-  ssm::SampleBuffer buffer(ssm::ToFrames(vm::TotalDuration(plan->phonemes)));
-  EXPECT_TRUE(engine->Render(*plan, buffer));
-  const auto ready = buffer.Ready();
-  return {{ready.begin(), ready.end()}, std::move(plan->phonemes)};
+  return "pau";
 }
 
 class WordFeaturesTest : public testing::Test {
@@ -46,7 +30,7 @@ class WordFeaturesTest : public testing::Test {
 };
 
 TEST_F(WordFeaturesTest, WordsTellPhonesThatFramesByThemselvesDoNot) {
-  const Said said = Say("The weather in the mountains will be wonderful tomorrow morning.");
+  const Take said = Spoken("The weather in the mountains will be wonderful tomorrow morning.");
   const auto& names = (*InstalledPhoneModel())->phones();
   // Of the frames that are no pause, the share whose likeliest phone is the one being said.
   const auto right = [&](FeatureKind kind, std::size_t first) {
@@ -55,7 +39,7 @@ TEST_F(WordFeaturesTest, WordsTellPhonesThatFramesByThemselvesDoNot) {
     features->Add(said.samples, vectors);
     double all = 0, found = 0;
     for (std::size_t k = 0; (k + 1) * features->size() <= vectors.size(); ++k) {
-      const std::string phone = said.At(10.0 * static_cast<double>(k));
+      const std::string phone = PhoneAt(said, 10.0 * static_cast<double>(k));
       if (phone == "pau") continue;
       const auto begin =
           vectors.begin() + static_cast<std::ptrdiff_t>(k * features->size() + first);
@@ -70,7 +54,7 @@ TEST_F(WordFeaturesTest, WordsTellPhonesThatFramesByThemselvesDoNot) {
 }
 
 TEST_F(WordFeaturesTest, PiecesOfAnySizeTellTheSameWithinTheTimeSaid) {
-  const Said said = Say("Good morning.");
+  const Take said = Spoken("Good morning.");
   const auto whole = MakeFeatures(FeatureKind::kWords), pieces = MakeFeatures(FeatureKind::kWords);
   std::vector<float> expected, vectors;
   whole->Add(said.samples, expected);
@@ -84,6 +68,13 @@ TEST_F(WordFeaturesTest, PiecesOfAnySizeTellTheSameWithinTheTimeSaid) {
     EXPECT_GT(told * pieces->hop_samples() + pieces->ahead_samples(), heard);
   }
   EXPECT_EQ(vectors, expected);
+}
+
+TEST_F(WordFeaturesTest, TheNetworkOfWordsHearsNoFurtherAheadThanThatOfPhones) {
+  const MouthTracker phones(ShippedNet(FeatureKind::kPhones));
+  const MouthTracker both(ShippedNet(FeatureKind::kPhones), 1, &ShippedNet(FeatureKind::kWords));
+  EXPECT_EQ(both.ahead_samples(), phones.ahead_samples());
+  EXPECT_LE(both.ahead_samples(), 60U * 16U);
 }
 
 }  // namespace

@@ -45,10 +45,13 @@ const vdm::MouthNet& NetOf(const Options& options, vdm::FeatureKind features) {
   return own ? *options.net : vdm::ShippedNet(features);
 }
 
-/// That of words is heard beside that of phones, where both can be.
+/// That of words is heard beside the program's own of phones, where both can be. Who brings another
+/// of phones wants to see that one, which may know other sounds.
 const vdm::MouthNet* WordsNet(const Options& options) {
-  return vdm::CanMakeFeatures(vdm::FeatureKind::kWords) ? &NetOf(options, vdm::FeatureKind::kWords)
-                                                        : nullptr;
+  const bool other = options.net && options.net->features == vdm::FeatureKind::kPhones;
+  return !other && vdm::CanMakeFeatures(vdm::FeatureKind::kWords)
+             ? &NetOf(options, vdm::FeatureKind::kWords)
+             : nullptr;
 }
 
 /// A file given is taken for Head.auto = ON.
@@ -89,7 +92,15 @@ int BeforeStart(Options& options) {
     options.net = OrThrow(vdm::ParseMouthNet(
         options.net_file, OrThrow(vm::ReadTextFile(options.net_file, kMaxNetBytes))));
   }
-  if (options.file.empty()) return -1;
+  if (options.file.empty()) {
+    // Beside the program's own network of phones; of a file it makes the track alone.
+    if (options.net && options.net->features == vdm::FeatureKind::kWords &&
+        options.net->sounds != vdm::ShippedNet(vdm::FeatureKind::kPhones).sounds) {
+      throw std::runtime_error(options.net_file +
+                               ": has other sounds than the network of phones it is heard beside");
+    }
+    return -1;
+  }
   const auto kind = options.net       ? options.net->features
                     : options.cepstra ? vdm::FeatureKind::kCepstra
                     : options.mel || !vdm::CanMakeFeatures(vdm::FeatureKind::kPhones)
