@@ -185,7 +185,7 @@ vm::Result<void> Editor::AddPattern(std::string_view name) {
     return table.rows().front().Name(0, "a name");
   });
   if (!named) return std::unexpected(named.error());
-  if (word == "posed" || word == "elicited") {
+  if (word == "posed" || word == "elicited" || word == "begins" || word == "early") {
     return Fail(Errc::kBadValue, "'" + word + "' is a word of the table, another name expected");
   }
   const auto found = state().expressions.find(word);

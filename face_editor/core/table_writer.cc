@@ -141,8 +141,9 @@ std::string WriteExpressions(std::string_view text, const fsm::ExpressionTable& 
   for (const Line& line : TableLinesOf(text)) {
     const bool timing =
         !line.words.empty() && (line.words[0] == "posed" || line.words[0] == "elicited");
-    const bool begins = line.words.size() > 2 && line.words[0] == "begins";
-    const std::string name = line.words.size() < 2 ? "" : line.words[timing || begins ? 1 : 0];
+    const bool growth =
+        line.words.size() > 2 && (line.words[0] == "begins" || line.words[0] == "early");
+    const std::string name = line.words.size() < 2 ? "" : line.words[timing || growth ? 1 : 0];
     const auto expression = expressions.find(name);
     if (line.words.size() < 2) {
       rows.emplace_back(line.text, "");
@@ -156,7 +157,7 @@ std::string WriteExpressions(std::string_view text, const fsm::ExpressionTable& 
       const bool same = fsm::Table("", row).rows().front().words() == line.words;
       rows.emplace_back(same ? line.text : row + line.comment, "");
       timed.emplace_back(line.words[0], name);
-    } else if (begins) {
+    } else if (growth) {
       const auto pattern = fsm::ParseNumber(line.words[2]);
       const auto count = static_cast<double>(expression->second.patterns.size());
       if (pattern && *pattern <= count) rows.emplace_back(line.text, name);

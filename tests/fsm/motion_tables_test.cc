@@ -83,12 +83,31 @@ TEST(MotionTablesTest, AUnitThatBeginsLaterIsLeftOutBelowThatStrengthAndWholeAtF
       << "of a look that is made anew all begins";
 }
 
-TEST(MotionTablesTest, ADamagedRowOfBeginsIsReportedWithFileAndLine) {
+TEST(MotionTablesTest, AUnitThatComesEarlyIsStrongerInASlightExpressionAndWholeAtFull) {
+  const auto table =
+      ReadExpressions("e.txt", "GLAD 1 12:0.8 6:0.6\nearly GLAD 1 6L:0.5", UnitNames::BuiltIn());
+  ASSERT_TRUE(table) << table.error().text;
+  Expression glad = table->at("GLAD");
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0).au.left[6], 0);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.25).au.left[6], 0.3F);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.25).au.right[6], 0.15F);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.25).au.left[12], 0.2F);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 1).au.left[6], 0.6F);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 2).au.left[6], 1.2F);
+  glad.Redefine(1, FaceLook(glad.patterns[0]));
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.25).au.left[6], 0.15F)
+      << "of a look that is made anew all grow in proportion";
+}
+
+TEST(MotionTablesTest, ADamagedRowOfBeginsOrEarlyIsReportedWithFileAndLine) {
   for (const auto& [row, expected] : std::map<std::string, std::string>{
            {"begins GLAD 2 25:0.4", "e.txt:2: a pattern that stands above expected"},
            {"begins", "e.txt:2: 'begins' needs at least 1 values after it, found 0"},
            {"begins GLAD 1 25:0.95", "e.txt:2: strengths from 0 to 0.9 expected"},
-           {"begins GLAD 1 gaze:1,2", "e.txt:2: action units expected, and no gaze"}}) {
+           {"begins GLAD 1 gaze:1,2", "e.txt:2: action units expected, and no gaze"},
+           {"early GLAD 2 6:0.5", "e.txt:2: a pattern that stands above expected"},
+           {"early GLAD 1 6:0.2", "e.txt:2: powers from 0.3 to 1 expected"},
+           {"early GLAD 1 6:1.5", "e.txt:2: powers from 0.3 to 1 expected"}}) {
     const auto read = ReadExpressions("e.txt", "GLAD 1 12:0.8\n" + row, UnitNames::BuiltIn());
     ASSERT_FALSE(read) << row;
     EXPECT_EQ(read.error().text, expected);

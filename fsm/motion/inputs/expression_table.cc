@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "fsm/base/range.h"
 #include "fsm/base/table_reader.h"
 
 namespace fsm {
@@ -29,19 +31,23 @@ void ReadPattern(const TableRow& row, const UnitNames& names, ExpressionTable& e
   patterns.push_back(ReadLook(row, 2, names));
 }
 
-void ReadBegins(const TableRow& row, const UnitNames& names, ExpressionTable& expressions) {
+/// Reads a row that gives units of a pattern above it a number each, into the pattern's place in
+/// `looks`. `expected`: what the numbers are, for the error where one is outside `allowed`.
+void ReadNumbers(const TableRow& row, const UnitNames& names, ExpressionTable& expressions,
+                 std::vector<FaceLook> Expression::*looks, Range allowed,
+                 const std::string& expected) {
   Expression& expression = expressions[row.Name(1, "an emotion's name")];
   const auto pattern = static_cast<std::size_t>(row.Within<double>(2, 1, 100, "a pattern number"));
   if (pattern > expression.patterns.size()) row.Refuse("a pattern that stands above expected");
-  FaceLook begins = ReadLook(row, 3, names);
+  FaceLook look = ReadLook(row, 3, names);
   for (const Side side : kSides) {
-    for (const float from : begins.au[side]) {
-      if (from > 0.9f) row.Refuse("strengths from 0 to 0.9 expected");
+    for (const float number : look.au[side]) {
+      if (number != 0 && !allowed.Contains(number)) row.Refuse(expected + " expected");
     }
-    if (begins.gaze[side] != EyeAngles{}) row.Refuse("action units expected, and no gaze");
+    if (look.gaze[side] != EyeAngles{}) row.Refuse("action units expected, and no gaze");
   }
-  expression.begins.resize(expression.patterns.size());
-  expression.begins[pattern - 1] = std::move(begins);
+  (expression.*looks).resize(expression.patterns.size());
+  (expression.*looks)[pattern - 1] = std::move(look);
 }
 
 }  // namespace
@@ -50,20 +56,26 @@ void Expression::Redefine(std::size_t pattern, const FaceLook& look) {
   patterns.resize(std::max(patterns.size(), pattern));
   patterns[pattern - 1] = look;
   if (pattern <= begins.size()) begins[pattern - 1] = {};
+  if (pattern <= early.size()) early[pattern - 1] = {};
 }
 
 FaceLook Expression::LookOf(int pattern, double strength) const {
   const auto index = static_cast<std::size_t>(pattern - 1);
   FaceLook look;
   AddTo(look, patterns[index], strength);
-  if (index >= begins.size()) return look;
   for (const Side side : kSides) {
-    for (std::size_t i = 0; i < begins[index].au[side].size(); ++i) {
-      const double from = begins[index].au[side][i];
-      if (from == 0) continue;
-      look.au[side][i] = patterns[index].au[side][i] *
-                         static_cast<float>(std::max(0.0, strength - from) / (1 - from));
-    }
+    const auto grow = [&](const std::vector<FaceLook>& looks, auto strength_of) {
+      if (index >= looks.size()) return;
+      for (std::size_t i = 0; i < looks[index].au[side].size(); ++i) {
+        const double number = looks[index].au[side][i];
+        if (number == 0) continue;
+        look.au[side][i] = patterns[index].au[side][i] * static_cast<float>(strength_of(number));
+      }
+    };
+    grow(begins, [&](double from) { return std::max(0.0, strength - from) / (1 - from); });
+    grow(early, [&](double power) {
+      return strength > 0 && strength < 1 ? std::pow(strength, power) : strength;
+    });
   }
   return look;
 }
@@ -76,7 +88,10 @@ vm::Result<ExpressionTable> ReadExpressions(const std::string& name, std::string
       if (row.key() == "posed" || row.key() == "elicited") {
         ReadTiming(row, expressions);
       } else if (row.key() == "begins") {
-        ReadBegins(row, names, expressions);
+        ReadNumbers(row, names, expressions, &Expression::begins, {0, 0.9f},
+                    "strengths from 0 to 0.9");
+      } else if (row.key() == "early") {
+        ReadNumbers(row, names, expressions, &Expression::early, {0.3f, 1}, "powers from 0.3 to 1");
       } else {
         ReadPattern(row, names, expressions);
       }

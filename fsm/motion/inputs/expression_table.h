@@ -17,6 +17,9 @@ struct Expression {
   /// Per pattern, the strength of the expression above which a unit takes part, 0..0.9: a slight
   /// smile keeps the mouth closed.
   std::vector<FaceLook> begins;
+  /// Per pattern, the power of the expression's strength (below 1) with which a unit grows: the
+  /// eyes take part in a slight smile; 0: in proportion.
+  std::vector<FaceLook> early;
   /// How an expression appears: the time from neutral to the peak, and the delay with which each
   /// region of the face begins.
   struct Timing {
@@ -28,8 +31,8 @@ struct Expression {
 
   /// Returns the action units of a pattern at a strength. REQUIRES: the pattern exists.
   FaceLook LookOf(int pattern, double strength) const;
-  /// Adds or changes a pattern; all its units take part from strength 0. REQUIRES: `pattern` is 1
-  /// or more.
+  /// Adds or changes a pattern; all its units grow in proportion to the strength. REQUIRES:
+  /// `pattern` is 1 or more.
   void Redefine(std::size_t pattern, const FaceLook& look);
 };
 using ExpressionTable = std::map<std::string, Expression, std::less<>>;
