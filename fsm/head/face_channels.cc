@@ -34,13 +34,14 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
       continue;
     const float side_x = vertex.skin.domain.x < 0 ? -1.0f : 1.0f;
 
-    // The corner's displacement grows linearly along the lips and fades into the cheek.
+    // The corner's displacement grows along the lips, sideways nearly in proportion, upward as a
+    // bow, and fades into the cheek.
     const float height = std::abs(vertex.skin.domain.y - line);
-    const float corner =
-        (a < corner_x ? std::pow(a / corner_x, 1.3f) : SmoothStep(56, corner_x, a)) *
-        SmoothStep(24, 0, height) * vertex.skin.free;
+    const float beside = SmoothStep(56, corner_x, a) * SmoothStep(24, 0, height) * vertex.skin.free;
+    const float along_lip = std::min(1.0f, a / corner_x);
+    const float corner = beside * std::pow(along_lip, 1.3f);
     add(kCornerX, i, {side_x * corner, 0, 0});
-    add(kCornerY, i, {0, corner, 0});
+    add(kCornerY, i, {0, beside * std::pow(along_lip, 2.2f), 0});
     add(kCornerZ, i, {0, 0, corner});
 
     // The four rings of the lips move fully at the median and not at the corner.

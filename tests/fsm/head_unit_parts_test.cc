@@ -154,7 +154,7 @@ TEST(HeadUnitPartsTest, ADroppedJawArchesTheUpperLipRoundToTheCorners) {
       ++beside;
     }
     if (x < 20.5F && x > 19) {
-      EXPECT_GT(way(upper) / whole, 0.3F) << "on its way to the corner";
+      EXPECT_NEAR(way(upper) / whole, 0.25F, 0.05F) << "on its way to the corner";
     }
   }
   EXPECT_EQ(beside, 2);

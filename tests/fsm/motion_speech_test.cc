@@ -81,6 +81,18 @@ TEST(VisemeTrackTest, DiphthongsGoToTheirSecondShapeAfterThirtyPerCent) {
               0.8 * tables.set(VisemeSetId::k14).visemes[10].pose.mouth[kJawY], 1e-5);
 }
 
+TEST(VisemeTrackTest, ADiphthongIsMostlyItsFirstShapeWhileSoundsOverlap) {
+  const auto tables = BuiltIn();
+  const VisemeTrack track(List("pau 200 ay 200 pau 200"), tables, {.language = Language::kEnglish});
+  const auto jaw = [&](double ms) { return track.At(ms).mouth[kJawY]; };
+  const VisemeSet& set = tables.set(VisemeSetId::k28);
+  const int first = set.english.at("ay").phases[0].viseme;
+  const float most = set.visemes[static_cast<std::size_t>(first)].pose.mouth[kJawY];
+  EXPECT_GT(jaw(270), 0.9F * most);
+  EXPECT_GT(jaw(300), 0.6F * most) << "in its middle it is still open";
+  EXPECT_LT(jaw(370), 0.4F * most);
+}
+
 TEST(VisemeTrackTest, HTakesTheNextVowel) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("h 80 a 100"), tables, Original(Language::kJapanese));

@@ -99,6 +99,13 @@ TEST(MotionTablesTest, AUnitThatComesEarlyIsStrongerInASlightExpressionAndWholeA
       << "of a look that is made anew all grow in proportion";
 }
 
+TEST(MotionTablesTest, CheeksAndLidsTakePartInASlightSmile) {
+  const auto tables = BuiltIn();
+  const Expression& happy = tables.expressions.at("HAPPY");
+  EXPECT_GT(happy.LookOf(1, 0.3).au.left[6], 0.5F);
+  EXPECT_FLOAT_EQ(happy.LookOf(1, 0.3).au.left[25], 0) << "with the lips closed";
+}
+
 TEST(MotionTablesTest, ADamagedRowOfBeginsOrEarlyIsReportedWithFileAndLine) {
   for (const auto& [row, expected] : std::map<std::string, std::string>{
            {"begins GLAD 2 25:0.4", "e.txt:2: a pattern that stands above expected"},

@@ -9,9 +9,11 @@
 namespace fsm {
 namespace {
 
-constexpr double kLongMs = 200;          // phonemes at least this long hold, then move
-constexpr double kClosureShare = 0.85;   // most of a phoneme that the shortest closure takes
-constexpr double kFirstPartShare = 0.3;  // the share of a diphthong's first phase
+constexpr double kLongMs = 200;         // phonemes at least this long hold, then move
+constexpr double kClosureShare = 0.85;  // most of a phoneme that the shortest closure takes
+// The share of a diphthong's first phase. With key shapes the face leaves the first one at once and
+// reaches the second at the end of that share; with dominance it passes half way there.
+constexpr double kFirstPartOfKeys = 0.3, kFirstPartOfDominance = 0.55;
 
 MouthPose Scaled(const Viseme& viseme, double strength, const LipStyle& style) {
   MouthPose pose = viseme.pose;
@@ -44,10 +46,10 @@ void ResolveNext(std::vector<TimedPhase>& phases, const VisemeSet& set) {
   }
 }
 
-/// Returns the phases of all phonemes, two for a diphthong, with their total length and the unknown
-/// phonemes.
+/// Returns the phases of all phonemes, two for a diphthong, whose first has the share `first_part`,
+/// with their total length and the unknown phonemes.
 std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const VisemeFinder& finder,
-                                 const VisemeSet& set, VisemeTargets& out) {
+                                 const VisemeSet& set, double first_part, VisemeTargets& out) {
   const PhonemeVisemes closed{{{static_cast<int>(set.rest), 1}}};
   std::vector<TimedPhase> phases;
   for (const vm::Phoneme& phoneme : phonemes) {
@@ -60,7 +62,7 @@ std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const VisemeFi
       }
     }
     const bool diphthong = visemes->phases.size() == 2;
-    const double split = diphthong ? length * kFirstPartShare : length;
+    const double split = diphthong ? length * first_part : length;
     const bool holds = length >= kLongMs;
     phases.push_back({out.length_ms, split, visemes->phases[0], holds && !diphthong});
     if (diphthong) {
@@ -90,7 +92,9 @@ VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTab
   VisemeTargets out;
   out.rest = set.visemes[set.rest].pose;
   out.rest_dominance = set.visemes[set.rest].dominance;
-  for (const TimedPhase& timed : PhasesOf(phonemes, finder, set, out)) {
+  const double first_part =
+      style.mode == LipMode::kDominance ? kFirstPartOfDominance : kFirstPartOfKeys;
+  for (const TimedPhase& timed : PhasesOf(phonemes, finder, set, first_part, out)) {
     if (timed.length_ms <= 0) continue;
     const auto index = static_cast<std::size_t>(timed.phase.viseme);
     const Viseme& viseme = set.visemes[index];
