@@ -343,6 +343,14 @@ TEST_F(IdleBehaviourTest, ProfilesSwitchEverythingAtOnceAndPartsRemainSwitchable
   EXPECT_FALSE(motion.switches().SetProfile(10s, "PARTY"));
 }
 
+TEST_F(IdleBehaviourTest, WhoLivesLooksFriendlyUntilAnExpressionIsCommanded) {
+  ASSERT_TRUE(motion.switches().SetProfile(0ms, "CALM"));
+  EXPECT_GT(motion.StateAt(2s).au.left[12], 0.1f);
+  EXPECT_GT(motion.StateAt(2s).au.left[6], 0.1f);
+  ASSERT_TRUE(motion.expression.Show(3s, "SAD", 1, 1, 0ms));
+  EXPECT_EQ(motion.StateAt(6s).au.left[12], 0);
+}
+
 TEST_F(IdleBehaviourTest, TheSameSeedLivesTheSameLife) {
   FaceMotion same(MotionTables::Load().value(), 7);
   FaceMotion other(MotionTables::Load().value(), 8);
