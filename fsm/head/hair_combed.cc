@@ -420,6 +420,21 @@ class CombedBuilder {
 }  // namespace
 
 std::size_t BuildCombedHair(const Identity& identity, MeshBuilder& mesh) {
+  const auto& style = std::get<CombedStyle>(identity.hair);
+  if (!style.tail) {
+    // Shorter hair below, which is seen at the sides, before the ears and at the nape.
+    const auto& under = identity.features->combed_hair.under;
+    Identity cropped = identity;
+    cropped.hair = CropStyle{.side_mm = under.sides * style.side_mm,
+                             .top_mm = under.top * style.top_mm,
+                             .locks = 0,
+                             .lock_mm = 0,
+                             .lift_mm = 0,
+                             .wave_mm = 0,
+                             .front_up = 0,
+                             .recede = 0};
+    BuildCroppedHair(cropped, mesh, under.up_to);
+  }
   return CombedBuilder(identity, mesh).Build();
 }
 

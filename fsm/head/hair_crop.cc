@@ -129,25 +129,26 @@ class CropBuilder {
         shape_(identity, mesh),
         mesh_(mesh) {}
 
-  void Build() {
+  void Build(float up_to) {
     std::vector<glm::vec3> edge;
     for (int k = -22; k <= 22; ++k) {
       edge.push_back(shape_.scalp().Over(shape_.Direction(3 * static_cast<float>(k), 0.03f), 0));
     }
     look_.ShadeSkin(edge, hair_.edge.shade, mesh_);
-    Shell();
+    Shell(up_to);
     for (int k = 0; k < style_.locks; ++k) Lock(k);
   }
 
  private:
-  void Shell() {
+  void Shell(float up_to) {
     constexpr int kAround = 48;
     constexpr float kRoundMm = 536;  // twice the width of the strands' picture
     constexpr std::array kUp = {0.0f,  0.022f, 0.06f, 0.11f, 0.17f, 0.23f, 0.30f, 0.37f, 0.44f,
                                 0.51f, 0.58f,  0.65f, 0.72f, 0.79f, 0.86f, 0.93f, 1.0f};
     const auto edge_density = ListOf(hair_.edge.density);
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
-    for (std::size_t r = 0; r < kUp.size(); ++r) {
+    const auto rows = static_cast<std::size_t>(std::ranges::upper_bound(kUp, up_to) - kUp.begin());
+    for (std::size_t r = 0; r < rows; ++r) {
       for (int k = 0; k <= kAround; ++k) {
         const float azimuth = -180 + 360 * static_cast<float>(k) / kAround;
         // An uneven edge, because hair does not end at a drawn line.
@@ -174,7 +175,7 @@ class CropBuilder {
             .tile_mm = shape_.Curled({kRoundMm * azimuth / 360, -140 * kUp[r]})};
       }
     }
-    mesh_.Grid(Material::kHair, first, static_cast<int>(kUp.size()), kAround + 1, true);
+    mesh_.Grid(Material::kHair, first, static_cast<int>(rows), kAround + 1, true);
   }
 
   void Lock(int k) {
@@ -231,8 +232,8 @@ class CropBuilder {
 
 }  // namespace
 
-void BuildCroppedHair(const Identity& identity, MeshBuilder& mesh) {
-  CropBuilder(identity, mesh).Build();
+void BuildCroppedHair(const Identity& identity, MeshBuilder& mesh, float up_to) {
+  CropBuilder(identity, mesh).Build(up_to);
 }
 
 std::vector<SkinStroke> CroppedHairline(const Identity& identity, const MeshBuilder& skin) {

@@ -38,7 +38,7 @@ class LongShape {
     const glm::vec3 d = Direction(around, side, cap);
     const float radius = Radius(around, d, cap);
     glm::vec3 p = kHairCentre + d * (radius + out_mm);
-    p.x += SignOf(side) * OverEar(around, p.y);
+    p.x += SignOf(side) * OverEar(around, p.y) * (1 - Tucked(side));
     return along > kCap ? Hanging(around, side, (along - kCap) / (kEnd - kCap), d, radius, p) : p;
   }
 
@@ -98,6 +98,8 @@ class LongShape {
     return cloth;
   }
 
+  float Tucked(Side side) const { return side == Side::kLeft ? style_.tucked : 0.0f; }
+
   glm::vec3 OnParting(float degrees) const {
     const float along = degrees * kPi / 180;
     const float wander = std::sin(0.31f * degrees) + 0.7f * std::sin(0.83f * degrees + 1);
@@ -111,15 +113,21 @@ class LongShape {
     const glm::vec3 start =
         OnParting(hair_.parting.degrees.At(std::pow(around, hair_.strands.parting_power)));
     const float sign = SignOf(side);
-    const float azimuth = hair_.strands.degrees.At(std::pow(around, hair_.strands.around_power));
+    const float tucked = Tucked(side);
+    const float first = glm::mix(hair_.strands.degrees.from, hair_.tuck.begins, tucked);
+    const float azimuth =
+        glm::mix(first, hair_.strands.degrees.to, std::pow(around, hair_.strands.around_power));
     const float edge = hair_.bend.edge_over_around.Ramp(around);
     // On the side away from the parting the way around the forehead is longer.
     const float away = side == Side::kRight ? 1.0f : 0.0f;
-    const float nearer = hair_.bend.nearer - hair_.bend.nearer_less_away * away;
-    const float edge_bend = hair_.bend.edge - hair_.bend.edge_less_away * away;
+    const float nearer =
+        glm::mix(hair_.bend.nearer - hair_.bend.nearer_less_away * away, hair_.tuck.nearer, tucked);
+    const float edge_bend =
+        glm::mix(hair_.bend.edge - hair_.bend.edge_less_away * away, hair_.tuck.bend, tucked);
     const glm::vec3 bend = HairDirection(sign * azimuth * glm::mix(1.0f, nearer, edge),
                                          glm::mix(hair_.bend.behind, edge_bend, edge));
-    const glm::vec3 end = HairDirection(sign * azimuth, hair_.skull_end.At(edge));
+    const glm::vec3 end = HairDirection(
+        sign * azimuth, glm::mix(hair_.skull_end.At(edge), hair_.tuck.skull_end, tucked * edge));
     return glm::normalize((1 - cap) * (1 - cap) * start + 2 * cap * (1 - cap) * bend +
                           cap * cap * end);
   }
@@ -161,7 +169,7 @@ class LongShape {
                     glm::vec3 p) const {
     const auto& hanging = hair_.hanging;
     const glm::vec3 out = glm::normalize(glm::vec3(d.x, 0, d.z));
-    const float front = hanging.edge_over_around.Ramp(around);
+    const float front = hanging.edge_over_around.Ramp(around) * (1 - Tucked(side));
     p.y = glm::mix(p.y, EndY(around, side), hang);
     // It continues around the skull for a little, so that it has no kink where that ends.
     const glm::vec3 on = (d - Direction(around, side, 1 - hanging.direction_step)) * radius *
@@ -365,8 +373,9 @@ class LongHairBuilder {
     }
   }
 
-  /// Adds a thin lock at the edge, nearer to the face than the others.
+  /// Adds a thin lock at the edge, nearer to the face than the others. Tucked hair has none.
   void FrameLock(Side side, int k) {
+    if (side == Side::kLeft && style_.tucked > 0.5f) return;
     const auto& frame = hair_.frame;
     const int seed = k + (side == Side::kLeft ? 1300 : 1100);
     const float nearer = frame.nearer.At(NoiseAt(seed, PaintStream::kLockPlace));

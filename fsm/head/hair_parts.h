@@ -47,9 +47,8 @@ class HairLook {
   explicit HairLook(const Identity& identity)
       : features_(*identity.features),
         palette_(identity.palette),
-        hairline_(CurveOf(std::holds_alternative<CombedStyle>(identity.hair)
-                              ? std::span<const float>(features_.combed_hair.line)
-                              : std::span<const float>(features_.hairline))) {}
+        hairline_(CurveOf(IsTied(identity) ? std::span<const float>(features_.combed_hair.line)
+                                           : std::span<const float>(features_.hairline))) {}
 
   /// Returns the elevation at which the hair begins on the skin, by azimuth; degrees.
   float HairlineElevation(float azimuth) const { return hairline_(std::abs(azimuth)); }
@@ -71,6 +70,11 @@ class HairLook {
   void AlignNormals(std::span<const glm::vec3> position, std::span<glm::vec3> normal) const;
 
  private:
+  static bool IsTied(const Identity& identity) {
+    const auto* const combed = std::get_if<CombedStyle>(&identity.hair);
+    return combed != nullptr && combed->tail.has_value();
+  }
+
   const Features& features_;
   const Palette& palette_;
   Curve hairline_;

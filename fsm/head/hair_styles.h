@@ -8,8 +8,9 @@
 
 namespace fsm {
 
-/// Adds short hair all around. REQUIRES, here and below: that is its hair.
-void BuildCroppedHair(const Identity& identity, MeshBuilder& mesh);
+/// Adds short hair all around, `up_to` a fraction of the way from the hairline to the crown.
+/// REQUIRES, here and below: that is its hair.
+void BuildCroppedHair(const Identity& identity, MeshBuilder& mesh, float up_to = 1);
 /// Adds parted hair that hangs down.
 void BuildLongHair(const Identity& identity, MeshBuilder& mesh);
 /// Adds hair that is combed back. Returns the first vertex of what hangs; all others lie

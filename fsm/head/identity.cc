@@ -73,9 +73,10 @@ void ReadHair(const TableRow& row, Identity& identity) {
     identity.hair = crop;
   } else if (row.Word(1) == "long") {
     identity.hair =
-        LongStyle{row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30), row.Within(4, -220, -20),
-                  row.Within(5, -240, -20), row.Within(6, 0, 12)};
-    row.EndsAt(7);
+        LongStyle{row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30),
+                  row.Within(4, -220, -20),   row.Within(5, -240, -20),
+                  row.Within(6, 0, 12),       row.size() > 7 ? row.Within(7, 0, 1) : 0.0f};
+    row.EndsAt(8);
   } else if (row.Word(1) == "tied") {
     CombedStyle tied{.side_mm = row.Within(2, -5, 60),
                      .top_mm = row.Within(3, -5, 60),

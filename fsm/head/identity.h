@@ -52,6 +52,7 @@ struct LongStyle {
   float front_y = -84;    ///< y of the ends beside the face, millimetres
   float back_y = -112;    ///< y of the ends behind
   float wave_mm = 2.2f;   ///< sideways swing of hanging hair
+  float tucked = 0;       ///< 1: behind the ear on the agent's left
 };
 
 /// Hair that is combed back from the whole hairline.

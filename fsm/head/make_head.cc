@@ -247,7 +247,8 @@ HeadAsset AssetOf(Identity own) {
                      : LongHairline(identity, parts.mesh));
   BuildLashes(from.eye, identity, false, parts.mesh);
   AddEyesAndMouth(from, parts.mesh);
-  if (crop || combed) BuildEars(identity, parts.mesh);  // long hair covers them
+  const auto* const hanging = std::get_if<LongStyle>(&identity.hair);
+  if (hanging == nullptr || hanging->tucked > 0) BuildEars(identity, parts.mesh);  // else covered
   FormedHead head(
       HeadForm(from.eye, from.mouth, from.sliders, nullptr, {}, parts.mesh, identity.eyes),
       parts.mesh);

@@ -165,7 +165,7 @@ int ColourOfTheMouth(float saturation) {
   Image image;
   renderer->Read(image);
   int most = 0, brightest = 0;
-  for (int y = 130; y < 180; ++y) {
+  for (int y = 130; y < 176; ++y) {
     for (int x = 105; x < 135; ++x) {
       const std::uint8_t* pixel = &image.rgba[static_cast<std::size_t>(y * 240 + x) * 4];
       const auto [low, high] = std::minmax({pixel[0], pixel[1], pixel[2]});

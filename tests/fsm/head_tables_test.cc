@@ -182,7 +182,7 @@ TEST(HeadTablesTest, FacesHaveTheColoursOfTheBaseHeadButForThoseTheyName) {
 TEST(HeadTablesTest, AFaceRefusesAWordTooManyInARow) {
   for (const char* row :
        {"slider nose_width 0.6 x", "beard 0.6 x", "lashes 0.5 x", "eyes 1 0 0 0 x",
-        "fold 0 0 1 1 x", "brows 1 0 0.5 1 x", "creases 0 0 0 0 x", "hair long 0 4 -100 -100 1 x",
+        "fold 0 0 1 1 x", "brows 1 0 0.5 1 x", "creases 0 0 0 0 x", "hair long 0 4 -100 -100 1 0 x",
         "hair crop 4 14 260 23 0.25 0.8 0.35 4 0 x", "colour gum 0.1 0.2 0.3 x"}) {
     EXPECT_EQ(Complaint([&] { Changed("galatea", {row}); }), "i.txt:2: 'x' is one word too many")
         << row;
@@ -241,13 +241,13 @@ TEST(HeadTablesTest, TheFurrowOverTheUpperLidLiesWhereItsRowSays) {
 }
 
 TEST(HeadTablesTest, HairBeginsWithSingleHairsOnTheSkin) {
-  for (const char* face : {"galatea", "pygmalion"}) {
+  for (const char* face : {"galatea", "memnon"}) {
     const auto strokes = [face](const char* name, const char* row) {
       Identity identity = BuiltInIdentity(face);
       identity.features = std::make_shared<const Features>("mine.txt", WithRow(name, row));
       return MakeHead(std::move(identity))->surface().skin_strokes.size();
     };
-    const bool crop = std::string_view(face) == "pygmalion";
+    const bool crop = std::string_view(face) == "memnon";
     const auto few = crop ? strokes("crop_hair hairline count", "crop_hair hairline count 10")
                           : strokes("long_hair hairline count", "long_hair hairline count 10");
     const auto many = crop ? strokes("crop_hair hairline count", "crop_hair hairline count 800")
@@ -361,11 +361,46 @@ TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
             "i.txt:2: '0.7' found where -0.6 to 0.6 was expected");
 }
 
+TEST(HeadTablesTest, TuckedHairLeavesTheLeftEarFree) {
+  // Hair beside the ear and before it, by side.
+  const auto beside = [](const char* row) {
+    const auto head = MakeSymmetricHead(Changed("zhenzhen", {row}));
+    int left = 0, right = 0;
+    for (const auto& part : head->surface().parts) {
+      if (part.material != Material::kHair) continue;
+      for (const std::uint32_t v : head->surface().Corners(part)) {
+        const glm::vec3 p = head->rig().data().rest[v];
+        if (p.y < -25 || p.y > 10 || p.z < -15 || p.z > 35) continue;
+        ++(p.x > 0 ? left : right);
+      }
+    }
+    return std::pair(left, right);
+  };
+  const auto hanging = beside("hair long 0.1 4 -124 -142 0"),
+             tucked = beside("hair long 0.1 4 -124 -142 0 1");
+  EXPECT_GT(hanging.first, 20);
+  EXPECT_EQ(tucked.first, 0);
+  EXPECT_EQ(tucked.second, hanging.second);
+}
+
 TEST(HeadTablesTest, CombedHairEndsWhereItsRowSays) {
   const auto lowest = [](const char* row) { return LowestHair(Changed("zhenzhen", {row})); };
   EXPECT_NEAR(lowest("hair tied 4 7 58 -125 0"), -140, 12);
   EXPECT_NEAR(lowest("hair tied 4 7 58 -70 0"), -82, 12);
   EXPECT_GT(lowest("hair swept 10 19 3 0"), -60) << "the nape";
+  const auto before_ear = [](const char* row) {
+    const auto head = MakeSymmetricHead(Changed("pygmalion", {row}));
+    int count = 0;
+    for (const auto& part : head->surface().parts) {
+      if (part.material != Material::kHair) continue;
+      for (const std::uint32_t v : head->surface().Corners(part)) {
+        const glm::vec3 p = head->rig().data().rest[v];
+        count += p.y < 30 && p.y > 10 && p.z > 2 ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(before_ear("hair swept 4 15 2 0"), 4) << "whiskers";
   const auto complaint = [](const char* row) {
     return Complaint([row] { Changed("zhenzhen", {row}); });
   };
@@ -441,7 +476,9 @@ TEST(HeadTablesTest, FeaturesLeftOutAreTheBuiltInOnes) {
 
 TEST(HeadTablesTest, FeaturesOfOnesOwnChangeTheHeads) {
   const auto places = [](const char* face, std::shared_ptr<const Features> features) {
-    Identity identity = BuiltInIdentity(face);
+    Identity identity = std::string_view(face) == "pygmalion"
+                            ? Changed(face, {"hair crop 3 15 60 26 2.5 1.5 0.6 2"})
+                            : BuiltInIdentity(face);
     identity.features = std::move(features);
     return MakeHead(std::move(identity))->rig().data().rest;
   };

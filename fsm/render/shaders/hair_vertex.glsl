@@ -19,6 +19,9 @@ void main() {
   vec3 world = TransformVertex();
   vec3 n = WorldNormal();
   vec3 v = normalize(eye - world);
+  // At its outline hair is thin, so that single hairs are visible there and no edge of a sheet is; behind it nothing is
+  // seen of the far side.
+  float thin = clamp(dot(n, v) * look_hair_outline.x + look_hair_outline.y, 0.0, 1.0);
   // Sheets are visible from both sides; at the outline they keep the side they face.
   n -= 2.0 * min(dot(n, v), 0.0) * v;
   vec3 albedo = albedo_openness.rgb;
@@ -28,8 +31,6 @@ void main() {
   float sleek = length(strand);
   strand = normalize(strand - n * dot(strand, n) + n * 1e-4);
   streak_uv = among_hairs * vec2(1.0 / 268.0, 1.0 / 256.0);
-  // At its outline hair is thin, so that single hairs are visible there and no edge of a sheet is.
-  float thin = clamp(dot(n, v) * look_hair_outline.x + look_hair_outline.y, 0.0, 1.0);
   fray = vec2(along_and_density.w * mix(1.0, thin, across_lock.y), across_lock.x);
 
   // Light on a strand is proportional to the sine of its angle to it (Kajiya and Kay 1989).
