@@ -166,7 +166,7 @@ TEST_F(DeformationTransferTest, ACoarseMeshWhoseLandmarksAreMillimetresOffMovesN
     std::printf("cubes of %.1f mm\n", static_cast<double>(cube_mm));
     const auto onto = Coarse(cube_mm);
     MakeTransfer(onto);
-    EXPECT_LT(MeanError(kUnits, 0.1F, onto), 0.067F);
+    EXPECT_LT(MeanError(kUnits, 0.15F, onto), 0.072F);
     FaceState shut;
     shut.blink.left = shut.blink.right = 1;
     EXPECT_LT(ErrorOf(shut, onto), 0.2F);
