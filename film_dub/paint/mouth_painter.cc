@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "face_fit/find/network/network_points.h"
 #include "face_fit/image/plane.h"
+#include "film_dub/paint/chin_mover.h"
 
 namespace filmdub {
 namespace {
@@ -32,6 +34,8 @@ constexpr float kEvenness = 0.28F;  // how smooth the quotient is
 constexpr float kMostGain = 2;
 constexpr float kDifferenceSpread = 0.02F;
 constexpr float kAlike = 0.05F, kUnlike = 0.12F;  // of colours 0..1
+// What is finer than so many pixels is made stronger, at most by so much.
+constexpr double kFine = 1, kMostSharper = 1.5;
 
 /// The part of a picture that is worked on.
 struct Part {
@@ -42,7 +46,7 @@ struct Part {
 /// The part with both areas and some room beside them.
 Part PartOf(const fsm::Image& picture, std::span<const glm::vec2> a, std::span<const glm::vec2> b,
             float unit) {
-  const int margin = cvCeil(kAround * unit) + 2;
+  const int margin = cvCeil(std::max(kAround * unit, ChinReach(unit))) + 2;
   facefit::Box2 box;
   for (const auto outline : {a, b}) {
     for (const glm::vec2 p : outline) box.Add(p);
@@ -83,6 +87,21 @@ std::vector<glm::vec2> Outline(std::span<const glm::vec2> points, float beyond) 
     outline.push_back(jaw + (beyond * (1 - across * across) - kInsideJaw) * (jaw - mouth));
   }
   return outline;
+}
+
+/// Both edges of the chin, in the part, the new one only as far as `share` goes there.
+struct Chins {
+  std::vector<glm::vec2> old_edge{}, new_edge{};
+};
+Chins ChinsOf(std::span<const glm::vec2> seen, std::span<const glm::vec2> points, const Part& part,
+              float share) {
+  Chins chins;
+  const glm::vec2 corner(part.box.x, part.box.y);
+  for (const PointIndex i : kJawEdge) {
+    chins.old_edge.push_back(seen[i] - corner);
+    chins.new_edge.push_back(chins.old_edge.back() + share * (points[i] - seen[i]));
+  }
+  return chins;
 }
 
 /// The lips and what lies between and just around them.
@@ -194,6 +213,40 @@ cv::Mat SkinOfBoth(std::span<const glm::vec2> seen, std::span<const glm::vec2> p
   return counts;
 }
 
+/// What of a picture is finer than kFine pixels.
+cv::Mat FineOf(const cv::Mat& picture) {
+  cv::Mat smooth, fine;
+  cv::GaussianBlur(picture, smooth, {}, kFine, kFine);
+  cv::subtract(picture, smooth, fine);
+  return fine;
+}
+
+/// Makes what is drawn as sharp as the film, where it was drawn by a texture of the film's own
+/// pixels: pores and lines of the skin that `counts` tells become as strong as they are there.
+/// `grain`: the deviation of the film's noise, which is no skin.
+void Sharpen(const cv::Mat& film, const cv::Mat& counts, double grain, cv::Mat& drawn) {
+  const cv::Mat fine = FineOf(drawn);
+  const auto variance = [&](const cv::Mat& of) {
+    double sum = 0, weight = 0;
+    for (int y = 0; y < of.rows; ++y) {
+      for (int x = 0; x < of.cols; ++x) {
+        const auto w = static_cast<double>(counts.at<float>(y, x));
+        const auto green = static_cast<double>(of.at<cv::Vec3f>(y, x)[1]);
+        sum += w * green * green;
+        weight += w;
+      }
+    }
+    return weight > 0 ? sum / weight : 0;
+  };
+  // So much of the variance of noise is finer than kFine: 1 - 2 g(0) + the sum of g squared.
+  constexpr double kOfNoise =
+      1 - 1 / (std::numbers::pi * kFine * kFine) + 1 / (4 * std::numbers::pi * kFine * kFine);
+  const double wanted = variance(FineOf(film)) - kOfNoise * grain * grain;
+  const double own = variance(fine);
+  if (own <= 0 || wanted <= own) return;
+  cv::scaleAdd(fine, std::min(std::sqrt(wanted / own) - 1, kMostSharper), drawn, drawn);
+}
+
 /// Noise of that deviation, as the film has it.
 void AddGrain(double deviation, std::uint64_t seed, cv::Mat& drawn) {
   if (deviation <= 0) return;
@@ -238,18 +291,28 @@ void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const Draw
       cv::Mat(picture.height, picture.width, CV_8UC4, picture.rgba.data())(part.box);
   cv::cvtColor(film_part, film, cv::COLOR_RGBA2RGB);
   film.convertTo(film, CV_32FC3, 1.0 / 255);
+  share = std::min(share, 1.0F);
+  const Chins chins = ChinsOf(seen, points, part, share);
+  const glm::vec2 mouth = seen[point::kMouthLeft] - seen[point::kMouthRight];
+  const cv::Mat moved = MoveChin(film, chins.old_edge, chins.new_edge,
+                                 mouth / std::max(glm::length(mouth), 1.0F), part.unit);
 
-  const cv::Mat counts = SkinOfBoth(seen, points, opacity, part);
+  std::vector<glm::vec2> shown(seen.begin(), seen.end());
+  for (std::size_t k = 0; k < std::size(kJawEdge); ++k) {
+    shown[kJawEdge[k]] = chins.new_edge[k] + glm::vec2(part.box.x, part.box.y);
+  }
+  const cv::Mat counts = SkinOfBoth(shown, points, opacity, part);
   cv::multiply(colours, Gains(film, colours, counts, part), colours);
+  Sharpen(film, counts, drawn.grain, colours);
   AddGrain(drawn.grain, drawn.seed, colours);
-  cv::Mat shares = Shares(Inside(old_area, new_area, part), part);
-  const cv::Mat faces = Inside(Outline(seen, kChinEdge), Outline(points, kChinEdge), part);
-  KeepWhatDiffers(film, colours, seen, faces, part, shares);
-  cv::multiply(shares, opacity, shares, static_cast<double>(std::min(share, 1.0F)));
+  cv::Mat shares = Shares(Inside(Outline(shown, kBeyondChin), new_area, part), part);
+  const cv::Mat faces = Inside(Outline(shown, kChinEdge), Outline(points, kChinEdge), part);
+  KeepWhatDiffers(film, colours, shown, faces, part, shares);
+  cv::multiply(shares, opacity, shares, static_cast<double>(share));
   for (int y = 0; y < film.rows; ++y) {
     for (int x = 0; x < film.cols; ++x) {
       const float s = shares.at<float>(y, x);
-      if (s <= 0) continue;
+      if (s <= 0 && moved.at<std::uint8_t>(y, x) == 0) continue;
       auto& out = film_part.at<cv::Vec4b>(y, x);
       const auto old = film.at<cv::Vec3f>(y, x), fresh = colours.at<cv::Vec3f>(y, x);
       for (int c = 0; c < 3; ++c) {

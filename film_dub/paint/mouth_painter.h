@@ -23,7 +23,8 @@ struct DrawnMouth {
 /// the film by the quotient of both around the mouth, smoothed, for each colour, and its grain,
 /// too; its edge fades out inside the skin. `seen`: where the picture shows the network's points.
 /// `share`: 1 = all of it, 0 = nothing. It reaches from below the nose over both cheeks to a little
-/// below the chin; no pixel elsewhere is touched. Pure; thread: any.
+/// below the chin; where the new chin is higher or lower than the old one, the neck below is
+/// stretched or pressed together. No pixel elsewhere is touched. Pure; thread: any.
 void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const DrawnMouth& drawn,
                 float share);
 

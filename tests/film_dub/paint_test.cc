@@ -98,6 +98,69 @@ TEST(MouthPainterTest, BelowTheChinWhatDiffersStaysTheFilms) {
   }
 }
 
+TEST(MouthPainterTest, OfAChinThatIsHigherNowNothingIsLeftWhereItWas) {
+  const auto points = Points();
+  // A dark line along the chin, which falls off over a neck.
+  const auto face = [&](float lower) {
+    fsm::Image image = Skin(1);
+    for (int x = 0; x < kWide; ++x) {
+      const float aside = (static_cast<float>(x) - points[152].x) / 60;
+      const int edge = static_cast<int>(points[152].y + lower - 14 * aside * aside);
+      for (int y = edge - 2; y <= edge + 1; ++y) {
+        for (std::size_t c = 0; c < 3; ++c) image.rgba[4 * image.Index(x, y) + c] = 60;
+      }
+    }
+    return image;
+  };
+  auto open = points;  // the jaw of the film is lower
+  for (const int i : {379, 378, 400, 377, 152, 148, 176, 149, 150}) {
+    open[static_cast<std::size_t>(i)].y += 10;
+  }
+  const fsm::Image film = face(10), drawn = face(0);
+  fsm::Image out = film;
+  PaintMouth(out, open, {.picture = &drawn, .placing = {}, .points = points}, 1);
+  const auto at = [&](const fsm::Image& image, float below) {
+    return int{image.rgba[4 * image.Index(static_cast<int>(points[152].x),
+                                          static_cast<int>(points[152].y + below))]};
+  };
+  ASSERT_LT(at(film, 10), 80);
+  EXPECT_LT(at(out, 0), 110);
+  for (float below = 5; below < 40; ++below) EXPECT_GT(at(out, below), 120) << below;
+}
+
+TEST(MouthPainterTest, WhatIsDrawnBecomesAsSharpAsTheFilm) {
+  const auto points = Points();
+  // Pores: a pattern of single pixels, fainter in what is drawn.
+  const auto skin = [&](int depth) {
+    fsm::Image image = Skin(1);
+    for (int y = 0; y < kHigh; ++y) {
+      for (int x = 0; x < kWide; ++x) {
+        const int by = (7 * x + 13 * y) % 5 < 2 ? depth : 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          auto& v = image.rgba[4 * image.Index(x, y) + c];
+          v = static_cast<std::uint8_t>(v - by);
+        }
+      }
+    }
+    return image;
+  };
+  const fsm::Image film = skin(16), drawn = skin(8);
+  fsm::Image out = film;
+  PaintMouth(out, points, {.picture = &drawn, .placing = {}, .points = points}, 1);
+  const auto depth = [&](const fsm::Image& image) {
+    const auto x = static_cast<int>(points[17].x), y = static_cast<int>(points[17].y) + 4;
+    int least = 255, most = 0;
+    for (int i = -4; i <= 4; ++i) {
+      const int v = image.rgba[4 * image.Index(x + i, y)];
+      least = std::min(least, v);
+      most = std::max(most, v);
+    }
+    return most - least;
+  };
+  EXPECT_NEAR(depth(out), depth(film), 4);
+  EXPECT_LT(depth(drawn), depth(film) - 5) << "else this would say nothing";
+}
+
 TEST(MouthPainterTest, BesideTheMouthWhatDiffersStaysTheFilms) {
   const auto points = Points();
   const fsm::Image film = Skin(1);
