@@ -3,9 +3,9 @@
 
 usage: bench/headaudio_bench.py
 
-Fetches the npm package @met4citizen/headaudio (MIT), runs its modules in node over the people of Debian's
-pocketsphinx-testdata (phonemes by our aligner, with the text) and a voice of flite (phonemes known), and measures what
-bench/vdm_bench.cc measures. Needs node, npm, ffmpeg, and align, fsm, ssm and vdm built.
+vdm hears each recording twice: as it would live, and whole, its words recognised first. Fetches the npm package
+@met4citizen/headaudio (MIT), runs its modules in node over the people of Debian's pocketsphinx-testdata (phonemes by our
+aligner, with the text) and a voice of flite (phonemes known), and measures what bench/vdm_bench.cc measures. Needs node, npm, ffmpeg, and align, fsm, ssm and vdm built.
 
 HeadAudio says visemes and no millimetres: each of its 15 values gets the gap that fits the true ones best by least
 squares over all recordings here, which favours it; lips count as shut where that gap is below 1 mm or viseme_PP stands
@@ -161,8 +161,10 @@ def main():
             listed = " ".join(f"{name} {ms:g}" for name, ms in phonemes)
             material.append((who, sound, phonemes, gaps(folder, ["set LipSync.pho = " + listed, "set Speak = NOW"])))
         rows = []
-        ours = [gaps(folder, run([program("vdm"), "--print", "lines", sound]).splitlines()) for _, sound, _, _ in material]
-        rows.append(("vdm", best(lambda lag: [(gap, [g < SHUT_MM for g in gap]) for gap in ours], material)))
+        for name, options in (("vdm, as live", ["--no-words"]), ("vdm, whole recordings", [])):
+            ours = [gaps(folder, run([program("vdm"), "--print", "lines", *options, sound]).splitlines())
+                    for _, sound, _, _ in material]
+            rows.append((name, best(lambda lag, ours=ours: [(gap, [g < SHUT_MM for g in gap]) for gap in ours], material)))
         for name, mended in (("HeadAudio", False), ("HeadAudio, `aa` mended", True)):
             values = [peer(folder, os.path.join(folder, "package"), sound, mended) for _, sound, _, _ in material]
 

@@ -66,7 +66,8 @@ cv::Mat MoveChin(cv::Mat& colours, std::span<const glm::vec2> before,
       const float edge = new_edge.At(u);
       const float off = (old_edge.At(u) - edge) * (1 - across * across);
       const float way = std::clamp(std::abs(off) - kTrembling * unit, 0.0F, most);
-      const float share = Fade((v > edge ? v - edge : edge - v) / ((v > edge ? kBelow : kAbove) * unit));
+      const float share =
+          Fade((v > edge ? v - edge : edge - v) / ((v > edge ? kBelow : kAbove) * unit));
       if (way * share < 0.02F) continue;
       const glm::vec2 source = p + std::copysign(way * share, off) * down;
       from.at<cv::Vec2f>(y, x) = {source.x, source.y};

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/vdm/made_net.h"
 #include "vdm/mouth/mouth_tracker.h"
 
@@ -102,6 +104,17 @@ TEST(MouthTrackerTest, TheSecondNetworkMovesTheMouth) {
   ASSERT_GT(mixed.size(), 10U);
   EXPECT_GT(mixed[9].frame.mouth[11], before[9].frame.mouth[11] + 1);
   EXPECT_LT(mixed[9].frame.mouth[11], before[9].frame.mouth[11] + 5);
+}
+
+TEST(MouthTrackerTest, TwoNetworksAreALittleSurerOfAClosureThanTheirMean) {
+  MouthNet net = MadeNet();
+  net.sounds = {"sil", "pbm"};
+  const std::vector<std::int16_t> sound(4000);
+  MouthTracker one(net), both(net, 1, &net);
+  const auto alone = one.Add(sound), mixed = both.Add(sound);
+  ASSERT_GT(mixed.size(), 10U);
+  const auto odds = [](const MouthFrame& frame) { return frame.sounds[1] / frame.sounds[0]; };
+  EXPECT_NEAR(odds(mixed[9].frame) / odds(alone[9].frame), std::exp(0.15F), 1e-3F);
 }
 
 TEST(MouthTrackerTest, TheSlowerOfTwoNetworksDecidesWhenAMomentIsSaid) {

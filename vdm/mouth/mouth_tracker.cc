@@ -9,8 +9,9 @@ namespace {
 
 // What the second network counts for (docs/vdm.md, How near it comes).
 constexpr float kShapeShare = 0.4F, kSoundShare = 0.5F;
-// Two that are not sure of the same say something nearer to the mean than one.
-constexpr float kGain = 1.1F;
+// Two that are not sure of the same say something nearer to the mean than one, and are less sure of
+// a closure: so much is added to its logits.
+constexpr float kGain = 1.1F, kSurer = 0.15F;
 
 }  // namespace
 
@@ -36,6 +37,10 @@ MouthTracker::MouthTracker(const MouthNet& net, float warp, const MouthNet* seco
     : first_(net, warp), motion_(net, static_cast<double>(first_.hop_samples()) / 16) {
   if (second == nullptr) return;
   second_.emplace(*second, warp);
+  if (const auto sound = std::ranges::find(net.sounds, "pbm"); sound != net.sounds.end()) {
+    closure_sound_ =
+        static_cast<Eigen::Index>(net.first_sound_row()) + (sound - net.sounds.begin());
+  }
   assert(second->sounds == net.sounds && second_->hop_samples() == first_.hop_samples());
 }
 
@@ -55,6 +60,8 @@ void MouthTracker::Mix(Eigen::VectorXf& outputs, const Eigen::VectorXf& others) 
   }
   const auto rest = outputs.size() - static_cast<Eigen::Index>(kShapeNumbers);
   outputs.tail(rest) += kSoundShare * (others.tail(rest) - outputs.tail(rest));
+  outputs[static_cast<Eigen::Index>(net.closure_row())] += kSurer;
+  if (closure_sound_) outputs[*closure_sound_] += kSurer;
 }
 
 std::vector<MouthTracker::Moment> MouthTracker::Add(std::span<const std::int16_t> samples) {

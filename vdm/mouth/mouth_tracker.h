@@ -51,6 +51,7 @@ class MouthTracker {
 
   Listener first_;
   std::optional<Listener> second_;
+  std::optional<Eigen::Index> closure_sound_{};  // the row of p, b and m
   MouthMotion motion_;
   std::uint64_t moments_ = 0;
 };
