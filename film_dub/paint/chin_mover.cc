@@ -4,11 +4,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace filmdub {
 namespace {
 
-// As parts of the distance between the eyes' outer corners.
+// As parts of the distance between the eyes' outer corners: how far from the edge something moves,
+// and what is left out.
 constexpr float kBelow = 0.4F, kAbove = 0.2F;
 constexpr float kTrembling = 0.01F;
 
