@@ -89,19 +89,13 @@ std::vector<glm::vec2> Outline(std::span<const glm::vec2> points, float beyond) 
   return outline;
 }
 
-/// Both edges of the chin, in the part, the new one only as far as `share` goes there.
-struct Chins {
-  std::vector<glm::vec2> old_edge{}, new_edge{};
-};
-Chins ChinsOf(std::span<const glm::vec2> seen, std::span<const glm::vec2> points, const Part& part,
-              float share) {
-  Chins chins;
-  const glm::vec2 corner(part.box.x, part.box.y);
+/// The edge of the chin, in the part.
+std::vector<glm::vec2> Chin(std::span<const glm::vec2> points, const Part& part) {
+  std::vector<glm::vec2> edge;
   for (const PointIndex i : kJawEdge) {
-    chins.old_edge.push_back(seen[i] - corner);
-    chins.new_edge.push_back(chins.old_edge.back() + share * (points[i] - seen[i]));
+    edge.push_back(points[i] - glm::vec2(part.box.x, part.box.y));
   }
-  return chins;
+  return edge;
 }
 
 /// The lips and what lies between and just around them.
@@ -225,18 +219,13 @@ cv::Mat FineOf(const cv::Mat& picture) {
 /// pixels: pores and lines of the skin that `counts` tells become as strong as they are there.
 /// `grain`: the deviation of the film's noise, which is no skin.
 void Sharpen(const cv::Mat& film, const cv::Mat& counts, double grain, cv::Mat& drawn) {
+  const double weight = cv::sum(counts)[0];
+  if (weight <= 0) return;
   const cv::Mat fine = FineOf(drawn);
   const auto variance = [&](const cv::Mat& of) {
-    double sum = 0, weight = 0;
-    for (int y = 0; y < of.rows; ++y) {
-      for (int x = 0; x < of.cols; ++x) {
-        const auto w = static_cast<double>(counts.at<float>(y, x));
-        const auto green = static_cast<double>(of.at<cv::Vec3f>(y, x)[1]);
-        sum += w * green * green;
-        weight += w;
-      }
-    }
-    return weight > 0 ? sum / weight : 0;
+    cv::Mat green;
+    cv::extractChannel(of, green, 1);
+    return cv::sum(green.mul(green).mul(counts))[0] / weight;
   };
   // So much of the variance of noise is finer than kFine: 1 - 2 g(0) + the sum of g squared.
   constexpr double kOfNoise =
@@ -292,15 +281,12 @@ void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const Draw
   cv::cvtColor(film_part, film, cv::COLOR_RGBA2RGB);
   film.convertTo(film, CV_32FC3, 1.0 / 255);
   share = std::min(share, 1.0F);
-  const Chins chins = ChinsOf(seen, points, part, share);
+  std::vector<glm::vec2> shown(seen.begin(), seen.end());  // the film's, with its chin moved
+  for (const PointIndex i : kJawEdge) shown[i] += share * (points[i] - seen[i]);
   const glm::vec2 mouth = seen[point::kMouthLeft] - seen[point::kMouthRight];
-  const cv::Mat moved = MoveChin(film, chins.old_edge, chins.new_edge,
+  const cv::Mat moved = MoveChin(film, Chin(seen, part), Chin(shown, part),
                                  mouth / std::max(glm::length(mouth), 1.0F), part.unit);
 
-  std::vector<glm::vec2> shown(seen.begin(), seen.end());
-  for (std::size_t k = 0; k < std::size(kJawEdge); ++k) {
-    shown[kJawEdge[k]] = chins.new_edge[k] + glm::vec2(part.box.x, part.box.y);
-  }
   const cv::Mat counts = SkinOfBoth(shown, points, opacity, part);
   cv::multiply(colours, Gains(film, colours, counts, part), colours);
   Sharpen(film, counts, drawn.grain, colours);

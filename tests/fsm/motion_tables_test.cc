@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "fsm/motion/inputs/motion_reader.h"
@@ -68,11 +69,15 @@ TEST(MotionTablesTest, ThereAreSixEmotionsAndUserdefWithFivePatterns) {
   EXPECT_DOUBLE_EQ(tables.expressions.at("HAPPY").posed.onset_ms, 556);
 }
 
+/// The expression of that name in a table.
+Expression Glad(const char* rows) {
+  const auto table = ReadExpressions("e.txt", rows, UnitNames::BuiltIn());
+  if (!table) throw std::runtime_error(table.error().text);
+  return table->at("GLAD");
+}
+
 TEST(MotionTablesTest, AUnitThatBeginsLaterIsLeftOutBelowThatStrengthAndWholeAtFull) {
-  const auto table =
-      ReadExpressions("e.txt", "GLAD 1 12:0.8 25L:0.5\nbegins GLAD 1 25:0.4", UnitNames::BuiltIn());
-  ASSERT_TRUE(table) << table.error().text;
-  Expression glad = table->at("GLAD");
+  Expression glad = Glad("GLAD 1 12:0.8 25L:0.5\nbegins GLAD 1 25:0.4");
   EXPECT_FLOAT_EQ(glad.LookOf(1, 0.4).au.left[12], 0.32F);
   EXPECT_FLOAT_EQ(glad.LookOf(1, 0.4).au.left[25], 0);
   EXPECT_FLOAT_EQ(glad.LookOf(1, 0.7).au.left[25], 0.25F);
@@ -84,10 +89,7 @@ TEST(MotionTablesTest, AUnitThatBeginsLaterIsLeftOutBelowThatStrengthAndWholeAtF
 }
 
 TEST(MotionTablesTest, AUnitThatComesEarlyIsStrongerInASlightExpressionAndWholeAtFull) {
-  const auto table =
-      ReadExpressions("e.txt", "GLAD 1 12:0.8 6:0.6\nearly GLAD 1 6L:0.5", UnitNames::BuiltIn());
-  ASSERT_TRUE(table) << table.error().text;
-  Expression glad = table->at("GLAD");
+  Expression glad = Glad("GLAD 1 12:0.8 6:0.6\nearly GLAD 1 6L:0.5");
   EXPECT_FLOAT_EQ(glad.LookOf(1, 0).au.left[6], 0);
   EXPECT_FLOAT_EQ(glad.LookOf(1, 0.25).au.left[6], 0.3F);
   EXPECT_FLOAT_EQ(glad.LookOf(1, 0.25).au.right[6], 0.15F);
