@@ -29,6 +29,11 @@ packages=(
 [ "${1:-}" != --tests ] || packages+=(
   libgtest-dev openssl mosquitto mosquitto-clients iproute2 xvfb xdotool chromium-headless-shell pocketsphinx-testdata liblo-tools
 )
+# Voices made of recordings of people, which festival (a program of its own) speaks with.
+[ "${1:-}" != --training ] || packages+=(
+  festival festvox-kdlpc16k festvox-italp16k festvox-itapc16k festvox-suopuhe-lj festvox-suopuhe-mv
+  festvox-czech-ph festvox-czech-dita festvox-czech-krb festvox-czech-machac festvox-ru
+)
 
 # One question for all: each of its own takes long at every start of an agent.
 installed=" $(dpkg-query -W -f='${db:Status-Status}=${Package} ' "${packages[@]}" 2>/dev/null || true)"

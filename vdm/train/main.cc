@@ -60,11 +60,11 @@ std::vector<vdm::Take> Corpus(const Options& options) {
     OrThrow(vdm::SaveCorpus(takes, path));
   }
   auto takes = OrThrow(vdm::LoadCorpus(path));
-  const bool people = std::ranges::any_of(
-      takes, [](const vdm::Take& take) { return take.voice.starts_with("people-"); });
-  if (people == options.people.empty()) {
-    throw std::runtime_error(fmt::format("{}: made {} --people; another --work is for other speech",
-                                         path, people ? "with" : "without"));
+  const auto of_people = [](const vdm::Take& take) { return take.voice.starts_with("people-"); };
+  if (options.people.empty()) {
+    std::erase_if(takes, of_people);
+  } else if (std::ranges::none_of(takes, of_people)) {
+    throw std::runtime_error(path + ": made without --people; another --work is for other speech");
   }
   return takes;
 }
@@ -186,7 +186,8 @@ int Train(const Options& options) {
   for (const std::string& path : options.teachers) plan.teachers.push_back(ReadNet(path));
   if (!options.from.empty()) plan.from = ReadNet(options.from);
   vdm::Training training(plan, takes, tables);
-  const std::string course = options.work + "/course";
+  const std::string course =
+      options.work + "/" + std::filesystem::path(options.out).filename().string() + ".course";
   if (std::filesystem::exists(course)) {
     OrThrow(training.Load(course));
     std::cerr << fmt::format("vdm_train: goes on after epoch {}\n", training.epoch());
@@ -220,8 +221,9 @@ int main(int argc, char** argv) {
   CLI::App app("Teaches vdm how mouths move, by speech that the voices of the toolkit say");
   app.set_version_flag("--version", "vdm_train (Galatea) " GALATEA_VERSION);
   app.add_option("out", options.out, "The file of what is learned")->required();
-  app.add_option("--work", options.work,
-                 "Folder for the speech and the course of the training, which goes on from there")
+  app.add_option(
+         "--work", options.work,
+         "Folder for the speech and the courses of trainings, which go on from there; one for all")
       ->capture_default_str();
   app.add_option("--features", options.features,
                  "mel; phones or words, which need pocketsphinx-en-us; or cepstra as in the papers")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -82,15 +83,31 @@ vm::Result<void> ContextModel::ReadContexts(const std::string& folder) {
   return {};
 }
 
+/// The states in the order of their phones, so that those of one are computed together.
 vm::Result<void> ContextModel::ReadMixtures(const std::string& folder) {
-  const std::size_t densities = phones_->densities(), senones = bases_.size();
-  const auto weights = ReadWeights(folder, densities, senones);
+  const std::size_t rows = PhoneModel::kStreams * phones_->densities(), senones = bases_.size();
+  const auto weights = ReadWeights(folder, phones_->densities(), senones);
   if (!weights) return std::unexpected(weights.error());
-  weights_.resize(weights->size());
-  for (std::size_t row = 0; row < PhoneModel::kStreams * densities; ++row) {
-    for (std::size_t senone = 0; senone < senones; ++senone) {
-      weights_[senone * PhoneModel::kStreams * densities + row] =
-          static_cast<std::uint8_t>((*weights)[row * senones + senone]);
+  std::vector<std::uint16_t> order(senones), place(senones);
+  std::iota(order.begin(), order.end(), std::uint16_t{0});
+  std::ranges::sort(order, {},
+                    [&](std::uint16_t senone) { return std::pair(bases_[senone], senone); });
+  std::ranges::sort(bases_);
+  for (std::size_t phone = 0; phone <= phones_->phones().size(); ++phone) {
+    first_.push_back(
+        static_cast<std::size_t>(std::ranges::lower_bound(bases_, phone) - bases_.begin()));
+  }
+  for (std::size_t i = 0; i < senones; ++i) place[order[i]] = static_cast<std::uint16_t>(i);
+  for (auto& sequence : sequences_) {
+    for (std::uint16_t& senone : sequence) senone = place[senone];
+  }
+  weights_.reserve(rows * senones);
+  for (std::size_t phone = 0; phone < phones_->phones().size(); ++phone) {
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t i = first_[phone]; i < first_[phone + 1]; ++i) {
+        const char byte = (*weights)[row * senones + order[i]];
+        weights_.push_back(std::exp(WeightOf(static_cast<unsigned char>(byte))));
+      }
     }
   }
   return {};
@@ -124,54 +141,57 @@ ContextModel::Sequence ContextModel::SequenceOf(Phone phone, Phone left, Phone r
 
 ContextScorer::ContextScorer(const ContextModel& model)
     : model_(model),
-      nearest_(model.phones().phones().size()),
-      phone_frame_(nearest_.size()),
-      senone_frame_(model.bases_.size()),
-      scores_(model.bases_.size()),
-      densities_(PhoneModel::kStreams * model.phones().densities()),
-      order_(model.phones().densities()) {}
+      phone_frame_(model.phones().phones().size()),
+      scores_(static_cast<Eigen::Index>(model.bases_.size())),
+      mixture_(scores_.size()),
+      densities_(PhoneModel::kStreams * model.phones().densities()) {}
 
 void ContextScorer::Begin(const float* features) {
   features_ = features;
   ++frame_;
 }
 
-void ContextScorer::ScorePhone(std::size_t phone) {
-  model_.phones().Densities(phone, features_, densities_);
-  const std::size_t count = order_.size();
-  for (std::size_t s = 0; s < PhoneModel::kStreams; ++s) {
-    const float* likely = densities_.data() + s * count;
-    std::iota(order_.begin(), order_.end(), std::uint16_t{0});
-    std::partial_sort(order_.begin(), order_.begin() + kTop, order_.end(),
-                      [&](std::uint16_t a, std::uint16_t b) { return likely[a] > likely[b]; });
-    Stream& stream = nearest_[phone][s];
-    for (std::size_t i = 0; i < kTop; ++i) {
-      stream.densities[i] = order_[i];
-      stream.likely[static_cast<Eigen::Index>(i)] = likely[order_[i]];
-    }
+/// The kTop likeliest of a stream's Gaussians, by insertion: few of many come among them.
+void ContextScorer::FindNearest(std::span<const float> likely) {
+  nearest_.fill({.likely = -std::numeric_limits<float>::infinity()});
+  for (std::size_t i = 0; i < likely.size(); ++i) {
+    if (!(likely[i] > nearest_.back().likely)) continue;
+    std::size_t at = kTop - 1;
+    for (; at > 0 && likely[i] > nearest_[at - 1].likely; --at) nearest_[at] = nearest_[at - 1];
+    nearest_[at] = {i, likely[i]};
   }
+}
+
+/// All states of a phone.
+void ContextScorer::ScorePhone(std::size_t phone) {
   phone_frame_[phone] = frame_;
+  model_.phones().Densities(phone, features_, densities_);
+  const std::size_t count = model_.phones().densities();
+  const std::size_t first = model_.first_[phone], size = model_.first_[phone + 1] - first;
+  const float* weights = &model_.weights_[first * PhoneModel::kStreams * count];
+  auto scores = scores_.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(size));
+  auto mixture = mixture_.head(scores.size());
+  // What three mixtures multiply to is at least e^-78.4 (WeightOf), so that a float can hold it.
+  scores.setOnes();
+  float most = 0;
+  for (std::size_t s = 0; s < PhoneModel::kStreams; ++s, weights += count * size) {
+    FindNearest(std::span(densities_).subspan(s * count, count));
+    mixture.setZero();
+    for (const Nearest& near : nearest_) {
+      mixture += std::exp(near.likely - nearest_[0].likely) *
+                 Eigen::Map<const Eigen::ArrayXf>(weights + near.density * size, scores.size());
+    }
+    scores *= mixture;
+    most += nearest_[0].likely;
+  }
+  scores = scores.log() + most;
 }
 
 float ContextScorer::Of(ContextModel::Sequence sequence, std::size_t state) {
   const std::size_t senone = model_.sequences_[sequence][state];
-  if (senone_frame_[senone] == frame_) return scores_[senone];
-  senone_frame_[senone] = frame_;
   const std::size_t phone = model_.bases_[senone];
   if (phone_frame_[phone] != frame_) ScorePhone(phone);
-  const std::size_t count = order_.size();
-  const std::uint8_t* weights = &model_.weights_[senone * PhoneModel::kStreams * count];
-  float score = 0;
-  for (const Stream& stream : nearest_[phone]) {
-    Top parts = stream.likely;
-    for (std::size_t i = 0; i < kTop; ++i) {
-      parts[static_cast<Eigen::Index>(i)] += WeightOf(weights[stream.densities[i]]);
-    }
-    const float most = parts.maxCoeff();
-    score += most + std::log((parts - most).exp().sum());
-    weights += count;
-  }
-  return scores_[senone] = score;
+  return scores_[static_cast<Eigen::Index>(senone)];
 }
 
 }  // namespace vdm

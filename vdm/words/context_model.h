@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,8 +57,10 @@ class ContextModel {
   std::size_t roots_ = 0;
   std::vector<Triphone> triphones_;
   std::vector<std::array<std::uint16_t, PhoneModel::kStates>> sequences_;  // senones
-  std::vector<Phone> bases_;                                               // of each senone
-  std::vector<std::uint8_t> weights_;  // senone by senone, stream by stream, a byte a density
+  // Senones are counted by phone: that of each, and the first of each phone (and one behind).
+  std::vector<Phone> bases_;
+  std::vector<std::size_t> first_;
+  std::vector<float> weights_;  // phone by phone, stream by stream, density by density, by senone
 };
 
 /// How likely one frame is in the states asked for. Lifetime: the model outlives it. Thread: none
@@ -71,22 +74,21 @@ class ContextScorer {
   float Of(ContextModel::Sequence sequence, std::size_t state);
 
  private:
-  static constexpr std::size_t kTop = 8;
-  using Top = Eigen::Array<float, kTop, 1>;
-  struct Stream {
-    std::array<std::uint16_t, kTop> densities{};
-    Top likely{};
+  static constexpr std::size_t kTop = 4;
+  struct Nearest {
+    std::size_t density = 0;
+    float likely = 0;
   };
+  void FindNearest(std::span<const float> likely);
   void ScorePhone(std::size_t phone);
 
   const ContextModel& model_;
   const float* features_ = nullptr;
   std::uint32_t frame_ = 0;
-  std::vector<std::array<Stream, PhoneModel::kStreams>> nearest_;  // by phone
-  std::vector<std::uint32_t> phone_frame_, senone_frame_;          // scored last
-  std::vector<float> scores_;                                      // by senone
+  std::vector<std::uint32_t> phone_frame_;  // scored last
+  Eigen::ArrayXf scores_, mixture_;         // by senone
   std::vector<float> densities_;
-  std::vector<std::uint16_t> order_;
+  std::array<Nearest, kTop> nearest_{};
 };
 
 }  // namespace vdm

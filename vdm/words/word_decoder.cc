@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 namespace vdm {
 namespace {
@@ -18,7 +19,7 @@ constexpr float kWordCost = -1, kPauseCost = -1, kNoiseCost = -8;
 const float kStay = std::log(0.5F), kGoOn = std::log(0.5F);
 // What is followed: paths so near to the best, at most so many, and the likeliest words that end.
 constexpr float kBeam = 12;
-constexpr std::size_t kMostPaths = 1000, kMostEnds = 25;
+constexpr std::size_t kMostPaths = 300, kMostEnds = 25;
 constexpr float kNever = WordTree::kNever;
 
 float BestOf(const std::array<float, PhoneModel::kStates>& scores) {
@@ -73,15 +74,12 @@ void WordDecoder::EnterWords(const End& end) {
 }
 
 float WordDecoder::Likely(const Path& path, std::size_t state) {
-  const ContextModel& contexts = tree_.contexts();
-  if (IsPause(path.node)) return scorer_.Of(contexts.SequenceOf(PhoneOf(path.node)), state);
+  if (IsPause(path.node)) {
+    return scorer_.Of(tree_.contexts().SequenceOf(PhoneOf(path.node)), state);
+  }
   const WordTree::Node& node = tree_.nodes()[path.node];
   if (node.next != WordTree::kNone) {
-    const ContextModel::Sequence sequence =
-        node.begins
-            ? contexts.SequenceOf(node.phone, path.left, node.next, ContextModel::Place::kBegin)
-            : node.states;
-    return scorer_.Of(sequence, state);
+    return scorer_.Of(node.begins ? tree_.BeginningOf(path.node, path.left) : node.states, state);
   }
   const WordTree::Ending& ending =
       node.begins ? tree_.SingleEnding(node.phone, path.left) : tree_.endings()[node.states];
@@ -178,33 +176,41 @@ void WordDecoder::Add(const float* features) {
   for (const End& end : ends_) EnterWords(end);
   for (const Path& path : next_) place_[path.node] = 0;
   paths_.swap(next_);
+  Weigh();
+}
+
+/// The share of each state of each path.
+void WordDecoder::Weigh() {
+  shares_.clear();
+  float sum = 0;
+  for (const Path& path : paths_) {
+    for (const float score : path.scores) {
+      shares_.push_back(std::exp(score));
+      sum += shares_.back();
+    }
+  }
+  for (float& share : shares_) share /= sum;
 }
 
 void WordDecoder::Phones(std::size_t back, std::span<float> likely) const {
   std::ranges::fill(likely, 0.0F);
-  float sum = 0;
+  auto share = shares_.begin();
   for (const Path& path : paths_) {
-    for (std::size_t s = 0; s < kStates; ++s) {
-      const float weight = std::exp(path.scores[s]);
-      likely[(path.phones[s] >> (8 * back)) & 0xFF] += weight;
-      sum += weight;
-    }
+    for (const std::uint64_t phones : path.phones)
+      likely[(phones >> (8 * back)) & 0xFF] += *share++;
   }
-  for (float& one : likely) one /= sum;
 }
 
 void WordDecoder::NextPhones(std::span<float> likely) const {
   std::ranges::fill(likely, 0.0F);
-  float sum = 0;
+  auto share = shares_.begin();
   for (const Path& path : paths_) {
-    float weight = 0;
-    for (const float score : path.scores) weight += std::exp(score);
-    sum += weight;
+    const float sum = std::accumulate(share, share + kStates, 0.0F);
+    share += kStates;
     if (IsPause(path.node)) continue;
     const Phone next = tree_.nodes()[path.node].next;
-    if (next != WordTree::kNone) likely[next] += weight;
+    if (next != WordTree::kNone) likely[next] += sum;
   }
-  for (float& one : likely) one /= sum;
 }
 
 }  // namespace vdm

@@ -51,6 +51,7 @@ class WordDecoder {
   float Likely(const Path& path, std::size_t state);
   float Prune();
   void Leave(const Path& path);
+  void Weigh();
   bool IsPause(std::uint32_t node) const { return node >= tree_.nodes().size(); }
   ContextModel::Phone PhoneOf(std::uint32_t node) const {
     return IsPause(node) ? pauses_[node - tree_.nodes().size()] : tree_.nodes()[node].phone;
@@ -64,6 +65,7 @@ class WordDecoder {
   std::vector<std::uint32_t> place_;  // of a node in next_, plus 1; 0: not there
   std::vector<End> ends_;
   std::vector<float> acoustic_, best_;
+  std::vector<float> shares_;  // of the states of paths_
   std::vector<std::array<float, kStates>> ending_scores_;
   std::vector<std::uint32_t> ending_frame_;
   std::uint32_t frame_ = 0;

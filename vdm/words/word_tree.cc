@@ -86,6 +86,14 @@ class WordTree::Builder {
       append(part);
     }
     const auto count = static_cast<Phone>(phones_.size());
+    for (std::size_t root = 0; root < tree.roots_; ++root) {
+      const auto [phone, next] = std::pair(tree.nodes_[root].phone, tree.nodes_[root].next);
+      for (Phone left = 0; left < count && next != kNone; ++left) {
+        tree.beginnings_.push_back(
+            contexts_.SequenceOf(phone, left, next, ContextModel::Place::kBegin));
+      }
+      tree.beginnings_.resize((root + 1) * count);
+    }
     for (Phone phone = 0; phone < count; ++phone) {
       for (Phone left = 0; left < count; ++left) {
         tree.single_.push_back(EndingOf(tree, phone, left, ContextModel::Place::kSingle));

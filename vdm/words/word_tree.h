@@ -38,6 +38,11 @@ class WordTree {
   const std::vector<Node>& nodes() const { return nodes_; }
   /// The first phones of words are the first nodes.
   std::size_t roots() const { return roots_; }
+  /// The states of a first phone behind a word that ends with `left`. REQUIRES: `root` < roots(),
+  /// with a phone after it.
+  ContextModel::Sequence BeginningOf(std::size_t root, ContextModel::Phone left) const {
+    return beginnings_[root * contexts_->phones().phones().size() + left];
+  }
   /// The states a last phone may have before other words. `sequences`: each once.
   struct Ending {
     std::vector<ContextModel::Sequence> sequences{};
@@ -51,6 +56,7 @@ class WordTree {
   std::shared_ptr<const ContextModel> contexts_;
   std::vector<Node> nodes_;
   std::size_t roots_ = 0;
+  std::vector<ContextModel::Sequence> beginnings_;  // by root and left
   std::vector<Ending> endings_;
   std::vector<std::uint16_t> single_;  // by phone and left, an index of endings_
 };

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Makes the networks and the table of emotions anew that vdm carries (vdm/tables), from speech that is made here and recordings of
+# people, which it fetches (scripts/people_speech.py): two hours on two cores.
+#   scripts/train_networks.sh [FOLDER]
+# FOLDER (networks_training) keeps speech and courses: ended and called again, it goes on where it was. One machine
+# gives the same networks each time; others give some of about the same quality (docs/vdm.md).
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+folder=$(realpath -m "${1:-networks_training}")
+cd "$root"
+mkdir -p "$folder"
+scripts/setup.sh --training
+scripts/people_speech.py "$folder/people"
+
+# NAME OPTION... : one network, unless it was made.
+train() {
+  if [ ! -e "$folder/$1" ]; then
+    scripts/build.sh --only "vdm_train ssm_espeak" build >&2
+    echo "train_networks: $1" >&2
+    build/bin/vdm_train "$folder/$1" --work "$folder" "${@:2}"
+  fi
+  cp "$folder/$1" vdm/tables/
+}
+people=(--people "$folder/people/list")
+train phones.net --features phones --width 192 --long-past --epochs 20 "${people[@]}"
+train words.net --features words --width 96 --epochs 6 "${people[@]}"
+train mel.net "${people[@]}"
+train cepstra.net --features cepstra --epochs 12
+# Heads hear what mel.net says, which is built in.
+train head.net --head SYNTHETIC
+train head_prosody.net --head SYNTHETIC --head-prosody
+train emotions.txt --emotion SYNTHETIC
