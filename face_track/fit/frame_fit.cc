@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "face_track/fit/bounded_solve.h"
+#include "face_track/fit/dose_prior.h"
+#include "face_track/fit/unit_choice.h"
 #include "face_track/model/eigen_glm.h"
 
 namespace facetrack {
@@ -18,31 +20,14 @@ using Vector = Eigen::VectorXf;
 constexpr int kPose = 6;     // turn, place
 constexpr float kHuber = 2;  // in parts of that and its spread
 // Doses are drawn to 0 by their square and by their size, and to that of the other side.
-constexpr float kRidge = 1, kLean = 5, kTogether = 100, kEyesTogether = 200;
-constexpr float kUnsure = 0.3F;  // mm by which any point may be off
-// Where the turn is known: likewise, beside what heads differ in; by how much each variation may be
-// there without a unit, mm; the dose by which the first round takes the variations; how strongly
-// doses up to what is small are drawn to 0, in parts of how surely each is seen.
-constexpr float kUnsureOfDoses = 0.2F, kVariesAnyway = 0.005F, kFirstDose = 0.3F;
-constexpr float kSparse = 1.2F, kSmallDose = 0.2F;
-constexpr float kFarTurn = 20;  // degrees at which points are off by all of their spread
+constexpr float kRidge = 0.2F, kLean = 5, kTogether = 100, kEyesTogether = 200;
+constexpr float kUnsure = 0.3F;         // mm by which any point may be off
+constexpr float kUnsureOfDoses = 0.3F;  // likewise, beside what heads differ in, of a known turn
+constexpr float kFarTurn = 20;          // degrees at which points are off by all of their spread
 constexpr int kRounds = 6;
 constexpr float kAny = 1e6F;      // no bound
 constexpr float kNearest = -150;  // mm, along the line of sight
 constexpr float kShut = 0.5F;     // dose of unit 43 from which on an iris is not seen
-
-/// How surely each variation is not there: the inverse of its variance, by what doses there are.
-Vector SureOfNone(const SeenFace& face, const std::vector<float>& doses, bool first) {
-  Vector variance = Vector::Constant(static_cast<Eigen::Index>(face.variations.size()),
-                                     kVariesAnyway * kVariesAnyway);
-  for (std::size_t c = 0; c < doses.size(); ++c) {
-    const Channel& channel = face.channels[c];
-    const float part = first ? kFirstDose : doses[c] / channel.usual();
-    const Eigen::Map<const Vector> varies(channel.varies.data(), variance.size());
-    variance += part * part * varies.cwiseAbs2();
-  }
-  return variance.cwiseInverse();
-}
 
 bool EyeIsShut(const SeenFace& face, const std::vector<float>& doses, std::size_t iris) {
   return doses[face.Find(iris == kIris ? "43R" : "43L")] > kShut;
@@ -71,6 +56,7 @@ struct Fitting {
 
   Equations EquationsAt(const Points& rest, std::span<const glm::vec2> places, const Doing& doing,
                         const Vector& varied, FrameFit::What what) const;
+  void Choose(const Points& rest, std::span<const glm::vec2> places, Doing& doing) const;
   void Draw(Normal& normal, const Doing& doing, bool sparse) const;
   void Move(Doing& doing, const Vector& by) const;
 };
@@ -132,6 +118,28 @@ Equations Fitting::EquationsAt(const Points& rest, std::span<const glm::vec2> pl
   return equations;
 }
 
+/// Puts the units in place of those there are that explain the picture best by themselves.
+void Fitting::Choose(const Points& rest, std::span<const glm::vec2> places, Doing& doing) const {
+  const auto is_unit = [&](std::size_t c) { return face.channels[c].kind == Channel::Kind::kUnit; };
+  const std::vector<float> before = doing.doses;
+  for (std::size_t c = 0; c < before.size(); ++c) {
+    if (is_unit(c)) doing.doses[c] = 0;
+  }
+  const Vector varied = Vector::Zero(static_cast<Eigen::Index>(face.variations.size()));
+  const Equations all = EquationsAt(rest, places, doing, varied, FrameFit::What::kDoses);
+  const Matrix ways = all.ways.transpose();
+  const auto chosen = ChooseUnits(face, opposite,
+                                  {.steps = all.slopes.transpose() * all.slopes,
+                                   .shared = ways * all.slopes,
+                                   .variations = ways * all.ways,
+                                   .missed = all.slopes.transpose() * all.miss,
+                                   .missed_ways = ways * all.miss},
+                                  before);
+  for (std::size_t c = 0; c < chosen.size(); ++c) {
+    if (is_unit(c)) doing.doses[c] = chosen[c];
+  }
+}
+
 /// Draws doses to 0 and to those of the other side, and keeps them within their ranges. `sparse`:
 /// small doses more than large ones.
 void Fitting::Draw(Normal& normal, const Doing& doing, bool sparse) const {
@@ -146,7 +154,7 @@ void Fitting::Draw(Normal& normal, const Doing& doing, bool sparse) const {
     const std::size_t other = opposite[c];
     if (channel.kind == Channel::Kind::kUnit) {
       const float both = other == FrameFit::kNone ? dose : 0.5F * (dose + doing.doses[other]);
-      normal.down[k] -= sparse ? kSparse * sureness[k] * kSmallDose / (kSmallDose + both) : kLean;
+      normal.down[k] -= sparse ? DoseCost::Slope(sureness[k], both) : kLean;
     }
     if (other != FrameFit::kNone) {
       const float together =
@@ -219,6 +227,7 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
   const bool varies = what == What::kDoses && !face_.variations.empty();
   // By how much along each.
   Vector varied = Vector::Zero(varies ? static_cast<Eigen::Index>(face_.variations.size()) : 0);
+  if (varies) fitting.Choose(rest, places, doing);
   std::vector<float> misses;
   for (int round = 0; round < kRounds; ++round) {
     Equations equations = fitting.EquationsAt(rest, places, doing, varied, what);
@@ -234,12 +243,12 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
     Eigen::LDLT<Matrix> own;
     if (varies) {
       Matrix ways_normal = ways.transpose() * ways;
-      ways_normal.diagonal() += SureOfNone(face_, doing.doses, round == 0);
+      ways_normal.diagonal() += SureOfNone(face_, doing.doses);
       own.compute(ways_normal);
       normal.matrix -= shared.transpose() * own.solve(shared);
       normal.down -= shared.transpose() * own.solve(along);
     }
-    fitting.Draw(normal, doing, varies && round > 0);
+    fitting.Draw(normal, doing, varies);
     const Vector by = BoundedSolve(normal.matrix, normal.down, normal.low, normal.high);
     if (varies) varied = own.solve(along - shared * by);
     fitting.Move(doing, by);

@@ -23,8 +23,8 @@ Points Moved(const SeenFace& face, const Points& rest, const std::vector<float>&
 /// are seen, and by their distance, not its square, where they are far off (Huber). Doses are drawn
 /// to 0 a little, so that of channels that look alike one is taken and not all, and both sides' to
 /// each other. Where the turn is known, what heads differ in as they do that (SeenFace::variations)
-/// is found with them and tells nothing of doses, and small doses are drawn to 0 more than large
-/// ones. Pure; thread: any.
+/// is found with them and tells nothing of doses; which units there are is searched for first
+/// (ChooseUnits), and small doses are drawn to 0 more than large ones. Pure; thread: any.
 class FrameFit {
  public:
   FrameFit(const SeenFace& face, const Lens& lens);

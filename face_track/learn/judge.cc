@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "face_track/fit/image_fit.h"
 #include "face_track/fit/person.h"
@@ -88,6 +89,36 @@ float Tremble(const FrameFit& fit, const Person& met, Sitter& sitter) {
   return std::sqrt(squares / static_cast<float>(std::size(kLittle)));
 }
 
+/// The face with these units of both sides at kDose.
+fsm::FaceState Together(std::span<const int> units) {
+  fsm::FaceState state;
+  state.asymmetry = 0;
+  for (const fsm::Side side : fsm::kSides) {
+    for (const int unit : units) state.au[side][static_cast<std::size_t>(unit)] = kDose;
+  }
+  return state;
+}
+
+/// The doses of these units, the mean of both sides, and the sum of all others.
+std::pair<std::vector<float>, float> Found(const SeenFace& face, std::span<const int> units,
+                                           const Doing& doing) {
+  std::vector<float> found(units.size(), 0.0F);
+  float others = 0;
+  for (std::size_t c = 0; c < face.channels.size(); ++c) {
+    const Channel& channel = face.channels[c];
+    if (channel.kind != Channel::Kind::kUnit) continue;
+    const auto at = std::ranges::find(units, channel.unit);
+    if (at == units.end())
+      others += doing.doses[c];
+    else
+      found[static_cast<std::size_t>(at - units.begin())] +=
+          channel.side.empty() ? doing.doses[c] : 0.5F * doing.doses[c];
+  }
+  return {found, others};
+}
+
+float Off(float found) { return std::abs(found - kDose) / kDose; }
+
 std::vector<JudgedDose> JudgeDoses(const FrameFit& fit, const Person& met, Sitter& sitter,
                                    const Doing& rest) {
   const auto& channels = fit.face().channels;
@@ -95,19 +126,15 @@ std::vector<JudgedDose> JudgeDoses(const FrameFit& fit, const Person& met, Sitte
   std::vector<JudgedDose> judged;
   for (const Channel& channel : channels) {
     if (channel.kind != Channel::Kind::kUnit || channel.side == "L") continue;
-    fsm::FaceState state = StateOf(channel, kDose);
-    state.au[fsm::Side::kLeft][static_cast<std::size_t>(channel.unit)] = kDose;
-    const auto sight = sitter.Look(state);
+    const int unit = channel.unit;
+    const auto sight = sitter.Look(Together({&unit, 1}));
     const Doing doing = fit.Solve(met.rest, sight.places, rest, What::kDoses);
-    JudgedDose dose{.unit = channel.unit};
+    const auto [found, others] = Found(fit.face(), {&unit, 1}, doing);
+    JudgedDose dose{.unit = unit, .found = found[0], .others = others};
     std::vector<float> told(channels.size(), 0.0F);
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      if (channels[c].kind != Channel::Kind::kUnit) continue;
-      const bool own = channels[c].unit == channel.unit;
-      (own ? dose.found : dose.others) += doing.doses[c];
-      if (own) told[c] = kDose;
+      if (channels[c].kind == Channel::Kind::kUnit && channels[c].unit == unit) told[c] = kDose;
     }
-    if (!channel.side.empty()) dose.found *= 0.5F;
     const Points moved = MovedBy(fit, met, sight, rest);
     Points usual = Moved(fit.face(), met.rest, told);
     for (std::size_t i = 0; i < kPoints; ++i) usual[i] -= met.rest[i];
@@ -116,6 +143,26 @@ std::vector<JudgedDose> JudgeDoses(const FrameFit& fit, const Person& met, Sitte
     judged.push_back(dose);
   }
   return judged;
+}
+
+/// Several units at once, as expressions have them (prototypes of EMFACS and what people do as they
+/// talk).
+void JudgeExpressions(const FrameFit& fit, const Person& met, Sitter& sitter, const Doing& rest) {
+  static const std::vector<int> kExpressions[] = {
+      {6, 12},    {6, 12, 25},    {1, 2, 5, 26}, {4, 7, 23}, {4, 5, 7, 24}, {9, 10, 17},
+      {1, 4, 15}, {1, 4, 15, 17}, {1, 2, 25},    {12, 26},   {20, 25},      {10, 12, 26}};
+  float off = 0, others = 0;
+  std::size_t count = 0;
+  for (const auto& units : kExpressions) {
+    const auto sight = sitter.Look(Together(units));
+    const Doing doing = fit.Solve(met.rest, sight.places, rest, What::kDoses);
+    const auto [found, rest_of] = Found(fit.face(), units, doing);
+    for (const float dose : found) off += Off(dose);
+    count += units.size();
+    others += rest_of / static_cast<float>(std::size(kExpressions));
+  }
+  fmt::print("  of several units at once doses off by {:.0f} %, others sum up to {:.2f}\n",
+             100 * off / static_cast<float>(count), others);
 }
 
 /// Mean and deviation of a number of some doses.
@@ -129,8 +176,6 @@ struct Average {
   }
 };
 
-float Off(const JudgedDose& dose) { return std::abs(dose.found - kDose) / kDose; }
-
 }  // namespace
 
 std::vector<JudgedDose> Judge(const SeenFace& face, Sitter& sitter) {
@@ -141,9 +186,10 @@ std::vector<JudgedDose> Judge(const SeenFace& face, Sitter& sitter) {
   JudgeTurns(fit, met, sitter, at_rest, rest);
   const auto judged = JudgeDoses(fit, met, sitter, rest);
   float off = 0;
-  for (const JudgedDose& dose : judged) off += Off(dose) / static_cast<float>(judged.size());
+  for (const JudgedDose& dose : judged) off += Off(dose.found) / static_cast<float>(judged.size());
   fmt::print("  doses off by {:.0f} %, other units sum up to {:.2f}\n", 100 * off,
              Average(judged, &JudgedDose::others).mean);
+  JudgeExpressions(fit, met, sitter, rest);
   return judged;
 }
 
@@ -157,7 +203,7 @@ std::string TableOfUnits(const std::vector<JudgedDose>& judged) {
   std::vector<Row> rows;
   for (const auto& [unit, doses] : by_unit) {
     float squares = 0;
-    for (const JudgedDose& dose : doses) squares += std::pow(Off(dose), 2.0F);
+    for (const JudgedDose& dose : doses) squares += std::pow(Off(dose.found), 2.0F);
     const Average found(doses, &JudgedDose::found), gain(doses, &JudgedDose::gain);
     const float moved = Average(doses, &JudgedDose::moved).mean;
     rows.push_back(

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <exception>
 #include <fstream>
@@ -187,6 +188,14 @@ void Learn(const std::string& out, std::size_t heads, const std::string& folder)
   WriteTable(out, face.Print());
 }
 
+/// A face by its name, or by a number that made by chance.
+std::unique_ptr<fsm::Head> JudgedHead(const std::string& name) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  const bool made = error == std::errc() && end == name.data() + name.size();
+  return made ? SomeHead(number) : fsm::MakeHeadOfName(name);
+}
+
 void JudgeFaces(const std::vector<std::string>& names, const std::string& folder) {
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(folder));
   facefit::AttentionNetwork attention = vm::OrThrow(facefit::AttentionNetwork::Load(folder));
@@ -194,7 +203,7 @@ void JudgeFaces(const std::vector<std::string>& names, const std::string& folder
   std::vector<JudgedDose> judged;
   for (const std::string& name : names) {
     fmt::print("{}\n", name);
-    Sitter sitter(fsm::MakeHeadOfName(name), networks, attention, painter);
+    Sitter sitter(JudgedHead(name), networks, attention, painter);
     const auto doses = Judge(SeenFace::Shipped(), sitter);
     judged.insert(judged.end(), doses.begin(), doses.end());
   }
@@ -213,8 +222,10 @@ int main(int argc, char** argv) {
   auto* table = app.add_option("out", out, "The table to write: face_track/tables/seen_face.txt");
   app.add_option("--heads", heads, "How many heads; from the third on they are made by chance")
       ->check(CLI::Range(1, 100));
-  app.add_option("--judge", judged,
-                 "Learns nothing, and prints how turns and units of these faces are found")
+  app.add_option(
+         "--judge", judged,
+         "Learns nothing, and prints how turns and units of these faces are found; a number is a "
+         "face made by chance")
       ->excludes(table);
   app.add_flag("--mouth", mouth,
                "The table is face_track/tables/mouth_of_lips.txt, by what seen_face.txt is now")

@@ -60,35 +60,68 @@ std::vector<glm::vec2> PlacesOf(const Points& points, const Lens& lens, const Po
   return places;
 }
 
-TEST(FrameFitTest, AUnitOfAHeadThatMovesOtherwiseIsFoundAndLittleElse) {
-  const SeenFace& face = SeenFace::Shipped();
-  const Lens lens = Lens::Of(400, 400, 25);
-  const FrameFit fit(face, lens);
-  Doing still;
-  still.doses.assign(face.channels.size(), 0);
-  still.pose.place.z = -800;
-  for (const char* unit : {"2", "12", "15"}) {
+/// A face that looks straight ahead, and what the fit finds of it.
+class FrameFitTest : public testing::Test {
+ protected:
+  FrameFitTest() {
+    still.doses.assign(face.channels.size(), 0);
+    still.pose.place.z = -800;
+  }
+  /// Units of both sides at 0.7.
+  Doing With(const std::vector<int>& units) const {
     Doing doing = still;
-    for (const char* side : {"L", "R"}) doing.doses[face.Find(unit + std::string(side))] = 0.7F;
-    Points points = Moved(face, face.rest, doing.doses);
-    for (std::size_t k = 0; k < face.variations.size(); ++k) {
-      const float by = 0.7F * face.channels[face.Find(unit + std::string("L"))].varies[k];
-      for (std::size_t i = 0; i < kPoints; ++i) {
-        points[i] += (k % 2 ? by : -by) * glm::vec3(face.variations[k][i], 0);
-      }
+    for (std::size_t c = 0; c < face.channels.size(); ++c) {
+      if (IsOneOf(units, face.channels[c])) doing.doses[c] = 0.7F;
     }
+    return doing;
+  }
+  /// Looks for the doses of points; these units are to be there, and little else.
+  void ExpectFound(const std::vector<int>& units, const Points& points, const Doing& before) const {
     const Doing found =
-        fit.Solve(face.rest, PlacesOf(points, lens, still.pose), still, FrameFit::What::kDoses);
+        FrameFit(face, lens)
+            .Solve(face.rest, PlacesOf(points, lens, still.pose), before, FrameFit::What::kDoses);
+    std::string told;
+    for (const int unit : units) told += " " + std::to_string(unit);
     float others = 0;
     for (std::size_t c = 0; c < face.channels.size(); ++c) {
       const Channel& channel = face.channels[c];
       if (channel.kind != Channel::Kind::kUnit) continue;
-      if (std::to_string(channel.unit) == unit)
-        EXPECT_NEAR(found.doses[c], 0.7, 0.15) << channel.Name();
+      if (IsOneOf(units, channel))
+        EXPECT_NEAR(found.doses[c], 0.7, 0.15) << channel.Name() << " of" << told;
       else
         others += found.doses[c];
     }
-    EXPECT_LT(others, 0.5) << unit;
+    EXPECT_LT(others, 0.5) << told;
+  }
+  static bool IsOneOf(const std::vector<int>& units, const Channel& channel) {
+    return channel.kind == Channel::Kind::kUnit &&
+           std::ranges::find(units, channel.unit) != units.end();
+  }
+  const SeenFace& face = SeenFace::Shipped();
+  const Lens lens = Lens::Of(400, 400, 25);
+  Doing still;
+};
+
+TEST_F(FrameFitTest, AUnitOfAHeadThatMovesOtherwiseIsFoundAndLittleElse) {
+  for (const int unit : {1, 2, 5, 6, 7, 9, 10, 12, 14, 15, 17, 18, 20, 22, 24, 25, 26, 28, 43}) {
+    Points points = Moved(face, face.rest, With({unit}).doses);
+    const auto channel = std::ranges::find(face.channels, unit, &Channel::unit);
+    for (std::size_t k = 0; k < face.variations.size(); ++k) {
+      const float by = 0.7F * channel->varies[k];
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        points[i] += (k % 2 ? by : -by) * glm::vec3(face.variations[k][i], 0);
+      }
+    }
+    ExpectFound({unit}, points, still);
+  }
+}
+
+TEST_F(FrameFitTest, UnitsTogetherAreFoundAndWhatWasThereBeforeIsForgotten) {
+  for (const std::vector<int>& units :
+       {std::vector{6, 12}, std::vector{1, 2, 26}, std::vector{9, 17}, std::vector{4, 7}}) {
+    const Points points = Moved(face, face.rest, With(units).doses);
+    ExpectFound(units, points, still);
+    ExpectFound(units, points, With({10, 14, 20}));
   }
 }
 
