@@ -13,6 +13,12 @@ namespace facetrack {
 /// what doses there are.
 Eigen::VectorXf SureOfNone(const SeenFace& face, const std::vector<float>& doses);
 
+/// How surely a turn that was found by other means is right, radians^-2 about each axis: it is off
+/// by 0.3 degrees, and a face that is seen turned a little looks as if it did a little of
+/// something.
+inline constexpr float kUnsureOfTurn = 0.3F * 3.14159265F / 180;
+inline constexpr float kSureOfTurn = 1 / (kUnsureOfTurn * kUnsureOfTurn);
+
 /// What a dose costs beside what it explains, so that of units that look alike few are taken: the
 /// logarithm of how large it is beside a small one, and so the less for more the larger it is.
 /// `sureness`: of how much the picture tells of it, in parts of what is not sure of a point.

@@ -186,6 +186,12 @@ void Fitting::Move(Doing& doing, const Vector& by) const {
 
 }  // namespace
 
+/// Radians about each axis by which a pose is turned from another, if it is little.
+Vector TurnedFrom(const Pose& from, const Pose& to) {
+  const Eigen::AngleAxisf by(Of(to.turn) * Of(from.turn).transpose());
+  return by.angle() * by.axis();
+}
+
 Points Moved(const SeenFace& face, const Points& rest, const std::vector<float>& doses) {
   Points moved = rest;
   for (std::size_t c = 0; c < doses.size(); ++c) {
@@ -236,7 +242,11 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
                   .down = slopes.transpose() * miss,
                   .low = Vector::Constant(slopes.cols(), -kAny),
                   .high = Vector::Constant(slopes.cols(), kAny)};
-    if (what == What::kDoses) normal.low.head<3>().setZero(), normal.high.head<3>().setZero();
+    if (what == What::kDoses) {
+      const Vector turned = TurnedFrom(start.pose, doing.pose);
+      normal.matrix.diagonal().head<3>().array() += kSureOfTurn;
+      normal.down.head<3>() -= kSureOfTurn * turned;
+    }
     // Variations have no bounds, so they are solved for by themselves (the Schur complement).
     const Matrix shared = ways.transpose() * slopes;
     const Vector along = ways.transpose() * miss;
@@ -257,6 +267,7 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
     const bool still = by.head<3>().norm() < kStill && by.segment<3>(3).norm() < 0.05F;
     if (still && round > 2 && !varies) break;
   }
+  if (what == What::kDoses) doing.pose.turn = start.pose.turn;
   std::ranges::nth_element(misses, misses.begin() + kPoints / 2);
   doing.miss = misses[kPoints / 2];
   return doing;

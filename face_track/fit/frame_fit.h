@@ -24,13 +24,14 @@ Points Moved(const SeenFace& face, const Points& rest, const std::vector<float>&
 /// to 0 a little, so that of channels that look alike one is taken and not all, and both sides' to
 /// each other. Where the turn is known, what heads differ in as they do that (SeenFace::variations)
 /// is found with them and tells nothing of doses; which units there are is searched for first
-/// (ChooseUnits), and small doses are drawn to 0 more than large ones. Pure; thread: any.
+/// (ChooseUnits), and small doses are drawn to 0 more than large ones; the turn may be a little off
+/// as the doses are found, and is returned as it was given. Pure; thread: any.
 class FrameFit {
  public:
   FrameFit(const SeenFace& face, const Lens& lens);
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);  ///< no channel
-  enum class What { kPose, kPoseAndDoses, kDoses };  ///< kDoses: the turn stays as it is
+  enum class What { kPose, kPoseAndDoses, kDoses };                   ///< kDoses: the turn stays
   /// From `start`, whose doses are all there.
   Doing Solve(const Points& rest, std::span<const glm::vec2> places, const Doing& start,
               What what) const;

@@ -40,9 +40,9 @@ class Choice {
  public:
   Choice(const SeenFace& face, const std::vector<std::size_t>& opposite, const Evidence& evidence)
       : face_(face) {
-    // Columns of a matrix that makes both sides of a unit one: place and gaze, then units.
+    // Columns of a matrix that makes both sides of a unit one: pose and gaze, then units.
     std::vector<std::vector<Eigen::Index>> columns;
-    for (Eigen::Index k = kPose / 2; k < kPose; ++k) columns.push_back({k});
+    for (Eigen::Index k = 0; k < kPose; ++k) columns.push_back({k});
     for (std::size_t c = 0; c < face.channels.size(); ++c) {
       const auto column = kPose + static_cast<Eigen::Index>(c);
       if (face.channels[c].kind != Channel::Kind::kUnit) {
@@ -67,6 +67,7 @@ class Choice {
             .variations = evidence.variations,
             .missed = join.transpose() * evidence.missed,
             .missed_ways = evidence.missed_ways};
+    all_.steps.diagonal().head<kPose / 2>().array() += kSureOfTurn;
   }
 
   std::vector<float> From(const std::vector<float>& before) const {
@@ -179,7 +180,7 @@ class Choice {
 
   const SeenFace& face_;
   std::vector<std::vector<std::size_t>> units_;  // channels of each unit's sides
-  std::size_t free_ = 0;                         // columns of place and gaze in all_
+  std::size_t free_ = 0;                         // columns of pose and gaze in all_
   Evidence all_;                                 // behind them a column for each of units_
 };
 

@@ -23,7 +23,8 @@ struct Evidence {
 /// search that adds, drops or exchanges one unit at a time as long as it gains, from those of
 /// `before`. A set of units is the better the likelier the picture is by it, with all it may do
 /// along the variations in which heads differ with these doses (marginal likelihood), and the less
-/// its doses cost (DoseCost). `evidence` is of a state without units; place and gaze are free.
+/// its doses cost (DoseCost). `evidence` is of a state without units; place and gaze are free,
+/// the turn is sure to kUnsureOfTurn.
 /// `opposite`: of each channel that of the other side, or a number beyond all. Returns a dose of
 /// each channel, 0 where it is none of a unit. Pure; thread: any.
 std::vector<float> ChooseUnits(const SeenFace& face, const std::vector<std::size_t>& opposite,
