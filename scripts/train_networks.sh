@@ -13,18 +13,23 @@ scripts/setup.sh --training
 scripts/people_speech.py "$folder/people"
 
 # NAME OPTION... : one network, unless it was made.
+learn() {
+  [ ! -e "$folder/$1" ] || return 0
+  scripts/build.sh --only "vdm_train ssm_espeak" build >&2
+  echo "train_networks: $1" >&2
+  build/bin/vdm_train "$folder/$1" --work "$folder" "${@:2}"
+}
+# Likewise, for vdm.
 train() {
-  if [ ! -e "$folder/$1" ]; then
-    scripts/build.sh --only "vdm_train ssm_espeak" build >&2
-    echo "train_networks: $1" >&2
-    build/bin/vdm_train "$folder/$1" --work "$folder" "${@:2}"
-  fi
+  learn "$@"
   cp "$folder/$1" vdm/tables/
 }
 people=(--people "$folder/people/list")
-train phones.net --features phones --width 192 --long-past --epochs 20 "${people[@]}"
+phones=(--features phones --width 192 --long-past "${people[@]}")
+learn first.net "${phones[@]}" --epochs 20
+train phones.net "${phones[@]}" --from "$folder/first.net" --epochs 12 --rate 0.001 --seed 5
 train words.net --features words --width 96 --epochs 6 "${people[@]}"
-train mel.net "${people[@]}"
+train mel.net
 train cepstra.net --features cepstra --epochs 12
 # Heads hear what mel.net says, which is built in.
 train head.net --head SYNTHETIC

@@ -11,7 +11,7 @@ namespace {
 constexpr float kShapeShare = 0.4F, kSoundShare = 0.5F;
 // Two that are not sure of the same say something nearer to the mean than one, and are less sure of
 // a closure: so much is added to its logits.
-constexpr float kGain = 1.1F, kSurer = 0.15F;
+constexpr float kGain = 1.1F, kSurer = 0.25F;
 
 }  // namespace
 
