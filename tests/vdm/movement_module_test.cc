@@ -152,7 +152,7 @@ TEST_F(MovementTest, WordsKnownOfARecordingMoveTheMouth) {
   words_ = {};
   Tell("set Input = wav:voice");
   Run(20s);
-  EXPECT_GT(Widest(Frames()), 1.5 * by_words);
+  EXPECT_GT(Widest(Frames()), 1.25 * by_words);
 }
 
 TEST_F(MovementTest, WordsAreNotReadWhereSomebodyWaitsOrANetworkIsAskedFor) {
