@@ -17,7 +17,7 @@ namespace {
 using Matrix = Eigen::MatrixXf;
 using Vector = Eigen::VectorXf;
 
-constexpr int kPose = 6;     // turn, place
+constexpr int kPose = Evidence::kPose;
 constexpr float kHuber = 2;  // in parts of that and its spread
 // Doses are drawn to 0 by their square and by their size, and to that of the other side.
 constexpr float kRidge = 0.2F, kLean = 5, kTogether = 100, kEyesTogether = 200;
@@ -118,6 +118,15 @@ Equations Fitting::EquationsAt(const Points& rest, std::span<const glm::vec2> pl
   return equations;
 }
 
+Evidence EvidenceOf(const Equations& equations) {
+  const auto& [slopes, ways, miss, _] = equations;
+  return {.steps = slopes.transpose() * slopes,
+          .shared = ways.transpose() * slopes,
+          .variations = ways.transpose() * ways,
+          .missed = slopes.transpose() * miss,
+          .missed_ways = ways.transpose() * miss};
+}
+
 /// Puts the units in place of those there are that explain the picture best by themselves.
 void Fitting::Choose(const Points& rest, std::span<const glm::vec2> places, Doing& doing) const {
   const auto is_unit = [&](std::size_t c) { return face.channels[c].kind == Channel::Kind::kUnit; };
@@ -127,14 +136,7 @@ void Fitting::Choose(const Points& rest, std::span<const glm::vec2> places, Doin
   }
   const Vector varied = Vector::Zero(static_cast<Eigen::Index>(face.variations.size()));
   const Equations all = EquationsAt(rest, places, doing, varied, FrameFit::What::kDoses);
-  const Matrix ways = all.ways.transpose();
-  const auto chosen = ChooseUnits(face, opposite,
-                                  {.steps = all.slopes.transpose() * all.slopes,
-                                   .shared = ways * all.slopes,
-                                   .variations = ways * all.ways,
-                                   .missed = all.slopes.transpose() * all.miss,
-                                   .missed_ways = ways * all.miss},
-                                  before);
+  const auto chosen = ChooseUnits(face, opposite, EvidenceOf(all), before);
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     if (is_unit(c)) doing.doses[c] = chosen[c];
   }
@@ -237,22 +239,22 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
   std::vector<float> misses;
   for (int round = 0; round < kRounds; ++round) {
     Equations equations = fitting.EquationsAt(rest, places, doing, varied, what);
-    const auto& [slopes, ways, miss, _] = equations;
-    Normal normal{.matrix = slopes.transpose() * slopes,
-                  .down = slopes.transpose() * miss,
-                  .low = Vector::Constant(slopes.cols(), -kAny),
-                  .high = Vector::Constant(slopes.cols(), kAny)};
+    const Evidence evidence = EvidenceOf(equations);
+    Normal normal{.matrix = evidence.steps,
+                  .down = evidence.missed,
+                  .low = Vector::Constant(evidence.missed.size(), -kAny),
+                  .high = Vector::Constant(evidence.missed.size(), kAny)};
     if (what == What::kDoses) {
       const Vector turned = TurnedFrom(start.pose, doing.pose);
       normal.matrix.diagonal().head<3>().array() += kSureOfTurn;
       normal.down.head<3>() -= kSureOfTurn * turned;
     }
     // Variations have no bounds, so they are solved for by themselves (the Schur complement).
-    const Matrix shared = ways.transpose() * slopes;
-    const Vector along = ways.transpose() * miss;
+    const Matrix& shared = evidence.shared;
+    const Vector& along = evidence.missed_ways;
     Eigen::LDLT<Matrix> own;
     if (varies) {
-      Matrix ways_normal = ways.transpose() * ways;
+      Matrix ways_normal = evidence.variations;
       ways_normal.diagonal() += SureOfNone(face_, doing.doses);
       own.compute(ways_normal);
       normal.matrix -= shared.transpose() * own.solve(shared);

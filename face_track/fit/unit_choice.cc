@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -13,7 +15,7 @@ namespace {
 using Matrix = Eigen::MatrixXf;
 using Vector = Eigen::VectorXf;
 
-constexpr Eigen::Index kPose = 6;
+constexpr Eigen::Index kPose = Evidence::kPose;
 constexpr std::size_t kMostUnits = 6;
 constexpr int kMostMoves = 12;
 // Doses before they are known, and at most; below kNoDose a unit was not there.

@@ -12,11 +12,12 @@ namespace facetrack {
 /// surely it is seen: products of what a step of place and doses moves (columns: six of the pose,
 /// then channels), of what variations move, and of what is missed.
 struct Evidence {
-  Eigen::MatrixXf steps;        ///< steps with steps
-  Eigen::MatrixXf shared;       ///< variations (rows) with steps
-  Eigen::MatrixXf variations;   ///< variations with variations
-  Eigen::VectorXf missed;       ///< steps with the miss
-  Eigen::VectorXf missed_ways;  ///< variations with the miss
+  static constexpr int kPose = 6;  ///< steps of the turn and the place
+  Eigen::MatrixXf steps;           ///< steps with steps
+  Eigen::MatrixXf shared;          ///< variations (rows) with steps
+  Eigen::MatrixXf variations;      ///< variations with variations
+  Eigen::VectorXf missed;          ///< steps with the miss
+  Eigen::VectorXf missed_ways;     ///< variations with the miss
 };
 
 /// Which units explain a picture with the fewest doses, and how much of each, both sides alike: a

@@ -46,6 +46,7 @@ WordDecoder::WordDecoder(const WordTree& tree) : tree_(tree), scorer_(tree.conte
   EnterWords({.last = silence_});
   paths_.swap(next_);
   for (const Path& path : paths_) place_[path.node] = 0;
+  Weigh();
 }
 
 void WordDecoder::Enter(std::uint32_t node, float score, std::uint64_t phones, Phone left) {
