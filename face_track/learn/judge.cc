@@ -157,7 +157,12 @@ void JudgeExpressions(const FrameFit& fit, const Person& met, Sitter& sitter, co
     const auto sight = sitter.Look(Together(units));
     const Doing doing = fit.Solve(met.rest, sight.places, rest, What::kDoses);
     const auto [found, rest_of] = Found(fit.face(), units, doing);
-    for (const float dose : found) off += Off(dose);
+    std::string told;
+    for (std::size_t k = 0; k < units.size(); ++k) {
+      off += Off(found[k]);
+      told += fmt::format(" {} {:.2f}", units[k], found[k]);
+    }
+    fmt::print("  together:{}; others {:.2f}\n", told, rest_of);
     count += units.size();
     others += rest_of / static_cast<float>(std::size(kExpressions));
   }
