@@ -101,11 +101,19 @@ TEST(MotionTablesTest, AUnitThatComesEarlyIsStrongerInASlightExpressionAndWholeA
       << "of a look that is made anew all grow in proportion";
 }
 
+TEST(MotionTablesTest, AUnitThatBeginsLaterAndComesEarlyGrowsFastFromThere) {
+  const Expression glad = Glad("GLAD 1 25:0.8\nbegins GLAD 1 25:0.2\nearly GLAD 1 25:0.5");
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.2).au.left[25], 0);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.4).au.left[25], 0.4F);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 1).au.left[25], 0.8F);
+}
+
 TEST(MotionTablesTest, CheeksAndLidsTakePartInASlightSmile) {
   const auto tables = BuiltIn();
   const Expression& happy = tables.expressions.at("HAPPY");
   EXPECT_GT(happy.LookOf(1, 0.3).au.left[6], 0.5F);
   EXPECT_FLOAT_EQ(happy.LookOf(1, 0.3).au.left[25], 0) << "with the lips closed";
+  EXPECT_GT(happy.LookOf(1, 0.6).au.left[25], 0.5F) << "a smile shows teeth, and no slit";
 }
 
 TEST(MotionTablesTest, ADamagedRowOfBeginsOrEarlyIsReportedWithFileAndLine) {

@@ -63,19 +63,17 @@ FaceLook Expression::LookOf(int pattern, double strength) const {
   const auto index = static_cast<std::size_t>(pattern - 1);
   FaceLook look;
   AddTo(look, patterns[index], strength);
+  const auto number_of = [&](const std::vector<FaceLook>& looks, Side side, std::size_t unit) {
+    return index < looks.size() ? looks[index].au[side][unit] : 0.0F;
+  };
   for (const Side side : kSides) {
-    const auto grow = [&](const std::vector<FaceLook>& looks, auto strength_of) {
-      if (index >= looks.size()) return;
-      for (std::size_t i = 0; i < looks[index].au[side].size(); ++i) {
-        const double number = looks[index].au[side][i];
-        if (number == 0) continue;
-        look.au[side][i] = patterns[index].au[side][i] * static_cast<float>(strength_of(number));
-      }
-    };
-    grow(begins, [&](double from) { return std::max(0.0, strength - from) / (1 - from); });
-    grow(early, [&](double power) {
-      return strength > 0 && strength < 1 ? std::pow(strength, power) : strength;
-    });
+    for (std::size_t unit = 0; unit < look.au[side].size(); ++unit) {
+      const double from = number_of(begins, side, unit), power = number_of(early, side, unit);
+      if (from == 0 && power == 0) continue;
+      double share = std::max(0.0, strength - from) / (1 - from);
+      if (power != 0 && share < 1) share = std::pow(share, power);
+      look.au[side][unit] = patterns[index].au[side][unit] * static_cast<float>(share);
+    }
   }
   return look;
 }

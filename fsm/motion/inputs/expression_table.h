@@ -17,8 +17,8 @@ struct Expression {
   /// Per pattern, the strength of the expression above which a unit takes part, 0..0.9: a slight
   /// smile keeps the mouth closed.
   std::vector<FaceLook> begins;
-  /// Per pattern, the power of the expression's strength (below 1) with which a unit grows: the
-  /// eyes take part in a slight smile; 0: in proportion.
+  /// Per pattern, the power (below 1) with which a unit grows from where it begins: the eyes take
+  /// part in a slight smile; 0: in proportion.
   std::vector<FaceLook> early;
   /// How an expression appears: the time from neutral to the peak, and the delay with which each
   /// region of the face begins.
