@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the networks and the table of emotions anew that vdm carries (vdm/tables), from speech that is made here and recordings of
-# people, which it fetches (scripts/people_speech.py): two hours on two cores.
+# people, which it fetches (scripts/people_speech.py): two and a half hours on two cores.
 #   scripts/train_networks.sh [FOLDER]
 # FOLDER (networks_training) keeps speech and courses: ended and called again, it goes on where it was. One machine
 # gives the same networks each time; others give some of about the same quality (docs/vdm.md).
@@ -26,8 +26,10 @@ train() {
 }
 people=(--people "$folder/people/list")
 phones=(--features phones --width 192 --long-past "${people[@]}")
+# Each goes on with the network before, other chances and smaller steps.
 learn first.net "${phones[@]}" --epochs 20
-train phones.net "${phones[@]}" --from "$folder/first.net" --epochs 12 --rate 0.001 --seed 5
+learn second.net "${phones[@]}" --from "$folder/first.net" --epochs 12 --rate 0.001 --seed 5
+train phones.net "${phones[@]}" --from "$folder/second.net" --epochs 16 --rate 0.0008 --seed 6
 train words.net --features words --width 96 --epochs 6 "${people[@]}"
 train mel.net
 train cepstra.net --features cepstra --epochs 12
