@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "tests/support/process.h"
 
@@ -92,14 +93,16 @@ TEST_F(GatewayTest, SoundGoesInAndFramesComeOut) {
   EXPECT_EQ(ready["ahead"], 0.06);
   EXPECT_NEAR(end["t"].get<double>(), seconds_, 0.001);
   EXPECT_NEAR(static_cast<double>(lines.size() - 2), seconds_ * 50, 2);
-  int closed = 0;
+  int closures = 0;
+  bool shut = false;
   for (std::size_t i = 1; i + 1 < lines.size(); ++i) {
     const json frame = json::parse(lines[i]);
     ASSERT_EQ(frame["type"], "frame");
     ASSERT_NEAR(frame["t"].get<double>(), 0.02 * static_cast<double>(i - 1), 1e-6);
-    closed += frame["viseme"] == "PP" ? 1 : 0;
+    const bool was_shut = std::exchange(shut, frame["viseme"] == "PP");
+    closures += shut && !was_shut ? 1 : 0;
   }
-  EXPECT_GT(closed, 5) << "m, m, b and p";
+  EXPECT_GE(closures, 2) << "both m; b and p are too short to be sure";
 }
 
 TEST_F(GatewayTest, FramesComeWhileTheSoundStillDoes) {
