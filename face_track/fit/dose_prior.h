@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "face_track/model/seen_face.h"
@@ -16,7 +17,7 @@ Eigen::VectorXf SureOfNone(const SeenFace& face, const std::vector<float>& doses
 /// How surely a turn that was found by other means is right, radians^-2 about each axis: it is off
 /// by 0.3 degrees, and a face that is seen turned a little looks as if it did a little of
 /// something.
-inline constexpr float kUnsureOfTurn = 0.3F * 3.14159265F / 180;
+inline constexpr float kUnsureOfTurn = 0.3F * std::numbers::pi_v<float> / 180;
 inline constexpr float kSureOfTurn = 1 / (kUnsureOfTurn * kUnsureOfTurn);
 
 /// What a dose costs beside what it explains, so that of units that look alike few are taken: the

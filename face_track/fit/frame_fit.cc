@@ -186,13 +186,13 @@ void Fitting::Move(Doing& doing, const Vector& by) const {
   }
 }
 
-}  // namespace
-
 /// Radians about each axis by which a pose is turned from another, if it is little.
 Vector TurnedFrom(const Pose& from, const Pose& to) {
   const Eigen::AngleAxisf by(Of(to.turn) * Of(from.turn).transpose());
   return by.angle() * by.axis();
 }
+
+}  // namespace
 
 Points Moved(const SeenFace& face, const Points& rest, const std::vector<float>& doses) {
   Points moved = rest;

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <utility>
 
 #include "tests/support/process.h"
@@ -67,6 +69,7 @@ class GatewayTest : public testing::Test {
     Process voice({GALATEA_BIN_DIR "/ssm", "--sink", "null", "--clock", "virtual"});
     voice.WriteLine("set Text = Mama bought a piano.");
     voice.WriteLine("set#1 SaveWAV = " + (folder_ / "said.wav"));
+    phonemes_ = voice.Expect("rep Text.pho = ").value_or("");
     EXPECT_TRUE(voice.Expect("rep#1 "));
     std::ifstream wav(folder_ / "said.wav", std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(wav), {});
@@ -76,7 +79,23 @@ class GatewayTest : public testing::Test {
     return raw;
   }
 
+  /// When a phoneme of the speech is said, the nth of its name: seconds, first and last.
+  std::pair<double, double> Said(const std::string& phoneme, int nth) const {
+    double from = 0;
+    std::istringstream words(phonemes_.substr(std::min(phonemes_.find("= "), phonemes_.size())));
+    for (std::string word; words >> word;) {
+      const std::size_t bracket = word.find('[');
+      if (bracket == word.npos) continue;
+      const double until = from + std::stod(word.substr(bracket + 1)) / 1000;
+      if (word.substr(0, bracket) == phoneme && nth-- == 0) return {from, until};
+      from = until;
+    }
+    ADD_FAILURE() << phoneme << " is not in " << phonemes_;
+    return {};
+  }
+
   support::TempDir folder_;
+  std::string phonemes_;
   std::unique_ptr<Process> gateway_;
   std::string host_;
   unsigned short port_ = 0;
@@ -93,16 +112,22 @@ TEST_F(GatewayTest, SoundGoesInAndFramesComeOut) {
   EXPECT_EQ(ready["ahead"], 0.06);
   EXPECT_NEAR(end["t"].get<double>(), seconds_, 0.001);
   EXPECT_NEAR(static_cast<double>(lines.size() - 2), seconds_ * 50, 2);
-  int closures = 0;
-  bool shut = false;
+  std::vector<double> shut;
   for (std::size_t i = 1; i + 1 < lines.size(); ++i) {
     const json frame = json::parse(lines[i]);
     ASSERT_EQ(frame["type"], "frame");
     ASSERT_NEAR(frame["t"].get<double>(), 0.02 * static_cast<double>(i - 1), 1e-6);
-    const bool was_shut = std::exchange(shut, frame["viseme"] == "PP");
-    closures += shut && !was_shut ? 1 : 0;
+    if (frame["viseme"] == "PP") shut.push_back(frame["t"]);
   }
-  EXPECT_GE(closures, 2) << "both m; b and p are too short to be sure";
+  // To 20 ms.
+  const auto shut_in = [&](std::pair<double, double> said) {
+    return std::ranges::count_if(
+        shut, [&](double t) { return t >= said.first - 0.02 && t <= said.second + 0.02; });
+  };
+  const auto in_m = shut_in(Said("m", 1)), in_b = shut_in(Said("b", 0));
+  EXPECT_GE(in_m, 2) << "the second m of Mama";
+  EXPECT_GE(in_b, 1) << "the b of bought";
+  EXPECT_EQ(in_m + in_b, std::ssize(shut)) << "and nowhere else";
 }
 
 TEST_F(GatewayTest, FramesComeWhileTheSoundStillDoes) {
