@@ -2,7 +2,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -30,7 +32,9 @@ class LongShape {
         volume_(hair_.volume.half_axes + style_.full_mm),
         look_(identity),
         scalp_(skin),
-        cloth_(ClothOf(skin)) {}
+        cloth_(ClothOf(skin)) {
+    if (style_.fringe_y) FindCover();
+  }
 
   /// Returns a place, `out_mm` farther out than the surface of the hair.
   glm::vec3 Point(float around, Side side, float along, float out_mm) const {
@@ -51,6 +55,24 @@ class LongShape {
     // At the parting the hairs of both sides rise alike, or the shading would have an edge there.
     const float turned = SmoothStep(0, parting.direction_until, along);
     return glm::normalize(glm::mix(parting.direction, direction, turned));
+  }
+
+  /// Returns a place in the fringe: `aside` from the agent's right (-1) to the left (1); `down`
+  /// from where it begins (0) to its ends (1); `out_mm` farther out than its surface. REQUIRES: the
+  /// style has one.
+  glm::vec3 InFringe(float aside, float down, float out_mm) const {
+    const auto& fringe = hair_.fringe;
+    const float azimuth = fringe.spread * aside;
+    const float end_y =
+        *style_.fringe_y - fringe.lower * std::pow(std::abs(aside), fringe.lower_power);
+    const float end_radius = scalp_.Distance(HairDirection(azimuth, 0)) + fringe.off_skin;
+    const float end =
+        glm::degrees(std::asin(std::clamp((end_y - kHairCentre.y) / end_radius, -1.0f, 1.0f)));
+    const glm::vec3 d =
+        HairDirection(azimuth, glm::mix(fringe.begins.At(aside * aside), end, down));
+    const float over_hair = fringe.over_hair.At(fringe.over_down.Ramp(down));
+    const float radius = std::max(scalp_.Distance(d) + fringe.off_skin, CoveredUpTo(d) + over_hair);
+    return kHairCentre + d * (radius + out_mm);
   }
 
   /// Returns how far the surface is raised there, millimetres.
@@ -182,8 +204,7 @@ class LongShape {
          Wave(around, side, hang, out);
     p.z += front * hanging.forward * hang * (1 - hanging.forward_less_ends * hang);
     // Beside the face it follows the cheek.
-    p.x -= SignOf(side) * front * hanging.cheek *
-           std::sin(std::min(1.0f, hanging.cheek_quarter_waves * hang) * kPi * 0.5f);
+    p.x -= SignOf(side) * front * hanging.cheek * SmoothStep(0, 1, hanging.cheek_rise * hang);
     return OffBody(around, p);
   }
 
@@ -216,6 +237,33 @@ class LongShape {
                     waves.off * std::cos(phase) * out);
   }
 
+  /// Remembers where the hair over the skull lies.
+  void FindCover() {
+    constexpr int kSteps = 24;
+    for (const Side side : kSides) {
+      for (int k = 0; k <= kSteps; ++k) {
+        for (int row = 0; row <= kSteps; ++row) {
+          const float around = hair_.fringe.reach * static_cast<float>(k) / kSteps;
+          const float along = kCap * static_cast<float>(row) / kSteps;
+          const float ridge = std::max(0.0f, Ridge(around, along));
+          const glm::vec3 from = Point(around, side, along, ridge) - kHairCentre;
+          cover_.emplace_back(glm::normalize(from), glm::length(from));
+        }
+      }
+    }
+  }
+
+  /// Returns how far from kHairCentre that hair lies in a direction; beyond its edge, where other
+  /// hair that falls over it would.
+  float CoveredUpTo(glm::vec3 d) const {
+    float farthest = 0;
+    for (const auto& [direction, radius] : cover_) {
+      const float lower = hair_.fringe.drape * (1 - glm::dot(direction, d));
+      farthest = std::max(farthest, radius - lower);
+    }
+    return farthest;
+  }
+
   /// Returns how far the ear lifts the hair that hangs over it.
   float OverEar(float around, float y) const {
     const auto& over_ear = hair_.over_ear;
@@ -230,6 +278,7 @@ class LongShape {
   const HairLook look_;
   const Scalp scalp_;
   const std::vector<glm::vec3> cloth_;
+  std::vector<std::pair<glm::vec3, float>> cover_{};  // directions and distances
 };
 
 /// Adds the hair of that shape to a mesh.
@@ -253,6 +302,10 @@ class LongHairBuilder {
       for (int k = 0; k < static_cast<int>(hair_.frame.count); ++k) FrameLock(side, k);
       Flyaways(side);
     }
+    if (style_.fringe_y) {
+      FringeSheet();
+      for (int k = 0; k < static_cast<int>(hair_.fringe.count); ++k) FringeLock(k);
+    }
     // What lies on the shoulders stays there as the head turns.
     for (std::size_t i = first; i < mesh_.position.size(); ++i)
       mesh_.weights[i].skin.neck = hair_.shoulder.turns_over_y.Ramp(mesh_.position[i].y);
@@ -266,6 +319,8 @@ class LongHairBuilder {
       for (int k = 0; k <= 48; ++k)
         edge.push_back(shape_.Point(0, side, 0.02f * static_cast<float>(k), 0));
     }
+    for (int k = -30; style_.fringe_y && k <= 30; ++k)
+      edge.push_back(shape_.InFringe(static_cast<float>(k) / 30, 1, 0));
     look_.ShadeSkin(edge, hair_.edge_shade, mesh_);
     for (std::size_t i = 0; i < mesh_.position.size(); ++i) {
       const glm::vec3 p = mesh_.position[i];
@@ -278,9 +333,9 @@ class LongHairBuilder {
 
   void Shell(Side side) {
     const auto& light = hair_.light;
-    constexpr int kStrands = 22;
+    constexpr int kStrands = 24;
     constexpr int kCapRows = 16;  // the skull is round; hanging hair is nearly straight
-    constexpr int kRows = 26;
+    constexpr int kRows = 34;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Strands are denser at the face, where the edge is visible.
@@ -311,6 +366,58 @@ class LongHairBuilder {
       }
     }
     mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side == Side::kLeft);
+  }
+
+  /// Adds the fringe below its locks.
+  void FringeSheet() {
+    const auto& fringe = hair_.fringe;
+    constexpr int kStrands = 32;
+    constexpr int kRows = 12;
+    const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+    for (int k = 0; k <= kStrands; ++k) {
+      const float aside = 2 * static_cast<float>(k) / kStrands - 1;
+      const float length = 1 - fringe.uneven * (0.5f + 0.5f * NoiseAt(k, PaintStream::kPointed));
+      for (int row = 0; row <= kRows; ++row) {
+        const float down = length * static_cast<float>(row) / kRows;
+        const float phase = fringe.ridges_close * aside + 2 * std::sin(3 * down);
+        const glm::vec3 along =
+            shape_.InFringe(aside, down + 0.02f, 0) - shape_.InFringe(aside, down - 0.02f, 0);
+        mesh_.Add(shape_.InFringe(aside, down, fringe.ridges * std::sin(phase)),
+                  look_.StrandColour(k * 2, row), fringe.light, Bone::kSkull);
+        mesh_.strands.back() = {.along = glm::normalize(along + glm::vec3(0, -1e-3f, 0)),
+                                .density = fringe.begins_over_down.Ramp(down) *
+                                           fringe.thins_over_down.Ramp(down) *
+                                           fringe.thins_aside.Ramp(std::abs(aside)),
+                                .across = 0,
+                                .tile_mm = fringe.tile * glm::vec2(aside, down)};
+      }
+    }
+    mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, true);
+  }
+
+  void FringeLock(int k) {
+    const auto& fringe = hair_.fringe;
+    const int seed = k + 2100;
+    const float place =
+        static_cast<float>(k) + 0.5f + 0.5f * NoiseAt(seed, PaintStream::kLockPlace);
+    const float aside = fringe.widest * (2 * place / fringe.count - 1);
+    const float from = fringe.from.At(NoiseAt(seed, PaintStream::kLockFrom));
+    const float to = fringe.to.At(NoiseAt(seed, PaintStream::kLockTo));
+    const float lift = fringe.lift.At(NoiseAt(seed, PaintStream::kLockLift));
+    const float lean = fringe.lean * NoiseAt(seed, PaintStream::kLockLean);
+    std::vector<glm::vec3> path;
+    constexpr int kSteps = 8;
+    for (int s = 0; s <= kSteps; ++s) {
+      const float v = static_cast<float>(s) / kSteps;
+      path.push_back(shape_.InFringe(aside + lean * v * v, glm::mix(from, to, v),
+                                     lift * SmoothStep(0, 0.25f, v)));
+    }
+    look_.AddLock(path,
+                  {.width_mm = fringe.width.At(NoiseAt(seed, PaintStream::kLockWidth)),
+                   .root_share = fringe.root,
+                   .tip_share = fringe.tip,
+                   .fray_from = fringe.fray_from},
+                  seed, mesh_);
   }
 
   /// Adds the dark inside of the hair, visible beside the neck and beyond the far temple.
@@ -355,7 +462,7 @@ class LongHairBuilder {
       const float to = locks.to.At(NoiseAt(seed, PaintStream::kLockTo));
       const float lift = locks.lift.At(NoiseAt(seed, PaintStream::kLockLift));
       std::vector<glm::vec3> path;
-      constexpr int kSteps = 11;
+      constexpr int kSteps = 15;
       for (int s = 0; s <= kSteps; ++s) {
         // Steps are shorter over the skull, which is round.
         const float v = std::pow(static_cast<float>(s) / kSteps, locks.crowd_power);
@@ -383,7 +490,7 @@ class LongHairBuilder {
     const float to = frame.to.At(NoiseAt(seed, PaintStream::kLockTo));
     const float phase = 3 * NoiseAt(seed, PaintStream::kLockLift);
     std::vector<glm::vec3> path;
-    constexpr int kSteps = 14;
+    constexpr int kSteps = 18;
     for (int s = 0; s <= kSteps; ++s) {
       const float v = static_cast<float>(s) / kSteps;
       const float along = glm::mix(from, to, v);

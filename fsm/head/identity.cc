@@ -72,11 +72,12 @@ void ReadHair(const TableRow& row, Identity& identity) {
     row.EndsAt(11);
     identity.hair = crop;
   } else if (row.Word(1) == "long") {
-    identity.hair =
-        LongStyle{row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30),
-                  row.Within(4, -220, -20),   row.Within(5, -240, -20),
-                  row.Within(6, 0, 12),       row.size() > 7 ? row.Within(7, 0, 1) : 0.0f};
-    row.EndsAt(8);
+    LongStyle hanging{row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30), row.Within(4, -220, -20),
+                      row.Within(5, -240, -20), row.Within(6, 0, 12)};
+    if (row.size() > 7) hanging.tucked = row.Within(7, 0, 1);
+    if (row.size() > 8) hanging.fringe_y = row.Within(8, 30, 90);
+    row.EndsAt(9);
+    identity.hair = hanging;
   } else if (row.Word(1) == "tied") {
     CombedStyle tied{.side_mm = row.Within(2, -5, 60),
                      .top_mm = row.Within(3, -5, 60),

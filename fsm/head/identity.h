@@ -53,6 +53,8 @@ struct LongStyle {
   float back_y = -112;    ///< y of the ends behind
   float wave_mm = 2.2f;   ///< sideways swing of hanging hair
   float tucked = 0;       ///< 1: behind the ear on the agent's left
+  /// y of the ends of a fringe over the middle of the face; none: the forehead is free.
+  std::optional<float> fringe_y{};
 };
 
 /// Hair that is combed back from the whole hairline.

@@ -20,6 +20,7 @@ enum class PaintStream : int {
   kFlyawayDrift = 4,
   kFlyawayOff = 5,
   kPointed = 17,
+  kLockLean = 18,
   // Cropped hair.
   kCropLockX = 31,
   kCropLockZ = 32,

@@ -182,8 +182,9 @@ TEST(HeadTablesTest, FacesHaveTheColoursOfTheBaseHeadButForThoseTheyName) {
 TEST(HeadTablesTest, AFaceRefusesAWordTooManyInARow) {
   for (const char* row :
        {"slider nose_width 0.6 x", "beard 0.6 x", "lashes 0.5 x", "eyes 1 0 0 0 x",
-        "fold 0 0 1 1 x", "brows 1 0 0.5 1 x", "creases 0 0 0 0 x", "hair long 0 4 -100 -100 1 0 x",
-        "hair crop 4 14 260 23 0.25 0.8 0.35 4 0 x", "colour gum 0.1 0.2 0.3 x"}) {
+        "fold 0 0 1 1 x", "brows 1 0 0.5 1 x", "creases 0 0 0 0 x",
+        "hair long 0 4 -100 -100 1 0 46 x", "hair crop 4 14 260 23 0.25 0.8 0.35 4 0 x",
+        "colour gum 0.1 0.2 0.3 x"}) {
     EXPECT_EQ(Complaint([&] { Changed("galatea", {row}); }), "i.txt:2: 'x' is one word too many")
         << row;
   }
@@ -381,6 +382,43 @@ TEST(HeadTablesTest, TuckedHairLeavesTheLeftEarFree) {
   EXPECT_GT(hanging.first, 20);
   EXPECT_EQ(tucked.first, 0);
   EXPECT_EQ(tucked.second, hanging.second);
+}
+
+TEST(HeadTablesTest, AFringeFallsOverTheForeheadDownToWhereItsRowSays) {
+  // Lowest hair before the forehead, and how many of its corners lie within the skin there.
+  struct Front {
+    float lowest = 200;
+    int within = 0;
+  };
+  const auto before_forehead = [](const char* row) {
+    const auto head = MakeSymmetricHead(Changed("zhenzhen", {row}));
+    const auto in_front = [&](Material material) {
+      std::vector<glm::vec3> points;
+      for (const auto& part : head->surface().parts) {
+        if (part.material != material) continue;
+        for (const std::uint32_t v : head->surface().Corners(part)) {
+          const glm::vec3 p = head->rig().data().rest[v];
+          if (std::abs(p.x) < 25 && p.z > 60) points.push_back(p);
+        }
+      }
+      return points;
+    };
+    const auto skin = in_front(Material::kSkin);
+    Front front;
+    for (const glm::vec3 p : in_front(Material::kHair)) {
+      front.lowest = std::min(front.lowest, p.y);
+      front.within += std::ranges::any_of(
+          skin, [&](glm::vec3 s) { return glm::length(glm::vec2(s - p)) < 4 && s.z > p.z; });
+    }
+    return front;
+  };
+  const Front none = before_forehead("hair long 0.1 4 -124 -142 0"),
+              high = before_forehead("hair long 0.1 4 -124 -142 0 0 70"),
+              low = before_forehead("hair long 0.1 4 -124 -142 0 0 50");
+  EXPECT_GT(none.lowest, 70);
+  EXPECT_NEAR(high.lowest, 67, 4);
+  EXPECT_NEAR(high.lowest - low.lowest, 20, 4);
+  EXPECT_EQ(low.within, 0);
 }
 
 TEST(HeadTablesTest, CombedHairEndsWhereItsRowSays) {
