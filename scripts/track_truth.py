@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Films heads that turn, blink and move as told, follows them with face_track, and prints how far off it is.
 
-usage: scripts/track_truth.py [--spoil noise|blur|dark|squeezed] [--careful] [HEAD]...     baucis, from which the table learned nothing
+usage: scripts/track_truth.py [--spoil noise|blur|dark|squeezed] [--careful] [--shown] [HEAD]...     baucis, from which the table learned nothing
+
+--shown: another film, spoiled alike, shows each unit first, and the head is followed as it moves there (scripts/show_units.py).
 
 Needs the networks (scripts/face_networks.sh), ffmpeg and the built programs; ends with 77 without networks. Angles and
 doses are medians of the last 400 ms of each second they are held; lids are counted in each picture that is not within
@@ -33,7 +35,31 @@ def median(values):
     return sorted(values)[len(values) // 2]
 
 
-def follow(head, folder, spoil, careful):
+def spoiled(film, spoil):
+    if not spoil:
+        return film
+    made = film.removesuffix(".mp4") + "_spoiled.mp4"
+    subprocess.run(["ffmpeg", "-v", "error", "-i", film, *SPOILS[spoil], made], check=True)
+    return made
+
+
+def track(*words):
+    """What face_track prints."""
+    done = subprocess.run([f"{BIN}/face_track", *words, "--field", "25", "--quiet"], text=True, capture_output=True)
+    if done.returncode != 0:
+        print(done.stderr.strip(), file=sys.stderr)
+        sys.exit(77 if "face_networks.sh" in done.stderr else 1)
+    return done.stdout
+
+
+def follow(head, folder, spoil, careful, shown):
+    more = ["--careful"] * careful
+    if shown:
+        film, prompts, person = (os.path.join(folder, name) for name in ("shown.mp4", "prompts.txt", "person.units"))
+        subprocess.run([os.path.join(os.path.dirname(os.path.abspath(__file__)), "show_units.py"), film, prompts, "--head", head],
+                       check=True, capture_output=True)
+        track(spoiled(film, spoil), "--learn-units", prompts, "--out", person, *more)
+        more += ["--person", person]
     film = os.path.join(folder, "film.mp4")
     lines = ["set Camera = 1 0 25", "set Record.fps = 25", f"set Record = {film}", "set Wait = 1500"]
     for turn in TURNS:
@@ -46,15 +72,7 @@ def follow(head, folder, spoil, careful):
     lines += ["set Record = STOP", "set Wait = IDLE", ""]
     subprocess.run([f"{BIN}/fsm", "--headless", "--clock", "virtual", "--size", "640x480", "--mask", head],
                    input="\n".join(lines), text=True, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    if spoil:
-        spoiled = os.path.join(folder, "spoiled.mp4")
-        subprocess.run(["ffmpeg", "-v", "error", "-i", film, *SPOILS[spoil], spoiled], check=True)
-        film = spoiled
-    done = subprocess.run([f"{BIN}/face_track", film, "--field", "25", "--quiet"] + ["--careful"] * careful, text=True, capture_output=True)
-    if done.returncode != 0:
-        print(done.stderr.strip(), file=sys.stderr)
-        sys.exit(77 if "face_networks.sh" in done.stderr else 1)
-    return list(csv.DictReader(done.stdout.splitlines()))
+    return list(csv.DictReader(track(spoiled(film, spoil), *more).splitlines()))
 
 
 def report(head, rows):
@@ -66,7 +84,7 @@ def report(head, rows):
     rest = [at(1400, name) for name in names]
     print(f"{head}: at rest {rest[0]:+.2f} {rest[1]:+.2f} {rest[2]:+.2f} degrees; "
           f"a face in {sum(r['person'] != '0' for r in rows)} of {len(rows)} pictures")
-    errors, end = [], 1500
+    errors, doses, end = [], [], 1500
     for turn in TURNS:
         end += 1000
         off = [at(end, name) - told - still for name, told, still in zip(names, turn, rest)]
@@ -76,8 +94,11 @@ def report(head, rows):
     for unit in UNITS:
         end += 1000
         seen = [at(end, f"au{unit}{side}") for side in ([""] if unit in BOTH else "RL")]
+        doses += [abs(v - DOSE) / DOSE for v in seen] * (2 if unit in BOTH else 1)
         print(f"  AU {unit} at {DOSE}: " + " ".join(f"{v:.2f}" for v in seen))
         end += 500
+    print(f"  doses off by {100 * sum(doses) / len(doses):.0f} %, "
+          f"{sum(max(doses[k:k + 2]) <= 0.15 for k in range(0, len(doses), 2))} of {len(UNITS)} within 15 %")
     right = all_lids = 0
     for r in rows:
         since = (float(r["ms"]) - end) % 1000
@@ -95,12 +116,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spoil", choices=sorted(SPOILS))
     parser.add_argument("--careful", action="store_true")
+    parser.add_argument("--shown", action="store_true")
     parser.add_argument("heads", nargs="*", default=["baucis"])
     wanted = parser.parse_args()
     errors = []
     for head in wanted.heads:
         with tempfile.TemporaryDirectory() as folder:
-            errors += report(head, follow(head, folder, wanted.spoil, wanted.careful))
+            errors += report(head, follow(head, folder, wanted.spoil, wanted.careful, wanted.shown))
     print(f"angles off: rms {(sum(e * e for e in errors) / len(errors)) ** 0.5:.2f}, worst {max(map(abs, errors)):.2f} degrees")
 
 

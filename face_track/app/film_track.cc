@@ -4,13 +4,16 @@
 
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 
 #include "face_fit/find/network/attention_points.h"
 #include "face_fit/find/network/face_networks.h"
 #include "face_track/film/picture_source.h"
+#include "face_track/follow/unit_lesson.h"
 #include "face_track/print/progress.h"
 #include "face_track/print/track_plot.h"
+#include "fsm/base/table_reader.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace facetrack {
@@ -49,12 +52,24 @@ class Out {
 
 }  // namespace
 
+SeenFace FaceToFollow(const std::string& person) {
+  const SeenFace& usual = SeenFace::Shipped();
+  if (person.empty()) return usual;
+  const std::string text = vm::OrThrow(fsm::ReadTableFile(person));
+  return FaceOfPerson(usual, vm::OrThrow(ParseShownUnits(person, text, usual)));
+}
+
 void PrintFilmTrack(const FilmTrack& wanted) {
   // First of all: a misspelt name is no matter of networks.
   const auto source = vm::OrThrow(OpenPictures(wanted.film, wanted.rate));
+  const SeenFace face = FaceToFollow(wanted.person);
+  std::optional<UnitLesson> lesson;
+  if (!wanted.lesson.empty()) {
+    const std::string prompts = vm::OrThrow(fsm::ReadTableFile(wanted.lesson));
+    lesson = vm::OrThrow(UnitLesson::Parse(wanted.lesson, prompts, face));
+  }
   auto networks = vm::OrThrow(facefit::FaceNetworks::Load(wanted.networks));
   auto attention = vm::OrThrow(facefit::AttentionNetwork::Load(wanted.networks));
-  const SeenFace& face = SeenFace::Shipped();
   Tracker tracker(networks, attention, face, wanted.tracker);
   const FacePrint print(wanted.format, wanted.extras, face);
   TrackPlot plot;
@@ -63,7 +78,10 @@ void PrintFilmTrack(const FilmTrack& wanted) {
   const auto write = [&](const std::vector<FaceLine>& lines) {
     for (const FaceLine& line : lines) {
       faces += line.person != 0 ? 1 : 0;
-      out.Write(print.Line(line));
+      if (lesson)
+        lesson->Add(line);
+      else
+        out.Write(print.Line(line));
       if (!wanted.plot.empty()) plot.Add(line);
     }
   };
@@ -72,12 +90,19 @@ void PrintFilmTrack(const FilmTrack& wanted) {
   {
     Progress progress("face_track:", wanted.quiet, source->length_ms());
     while ((more = source->Next(picture)) && *more) {
-      if (pictures == 0) out.Write(print.Header());
+      if (pictures == 0 && !lesson) out.Write(print.Header());
       write(tracker.Look(picture.picture, picture.ms));
       progress.At(++pictures, picture.ms);
     }
   }
   write(tracker.Finish());
+  if (lesson && faces > 0 && more) {
+    const UnitLesson::Learned learned = vm::OrThrow(lesson->Finish());
+    for (const std::string& sentence : learned.left_out)
+      std::cerr << "face_track: " << sentence << '\n';
+    if (learned.shown.empty()) throw std::runtime_error("no unit was shown");
+    out.Write(PrintShownUnits(learned.shown));
+  }
   out.Finish();
   if (!wanted.plot.empty() && faces > 0) vm::OrThrow(plot.Write(wanted.plot));
   if (!more) throw std::runtime_error(more.error().text);

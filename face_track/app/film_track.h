@@ -17,11 +17,17 @@ struct FilmTrack {
   FacePrint::Format format = FacePrint::Format::kCsv;
   FacePrint::Extras extras{};
   bool quiet = false;
+  std::string lesson;  ///< a table of when units are shown; "" = the track is printed
+  std::string person;  ///< a table of how this person's face moves; "" = as faces usually do
   Tracker::Settings tracker{};
 };
 
-/// Follows the face through the film. Lines found before an error stay printed. Throws
-/// std::runtime_error with a sentence: networks, film or file fail, or there is no face.
+/// Returns the face to follow: the usual one, or that person's. Throws std::runtime_error.
+SeenFace FaceToFollow(const std::string& person);
+
+/// Follows the face through the film, and prints its track or, with a lesson, the table of how it
+/// moves. Lines found before an error stay printed. Throws std::runtime_error with a sentence:
+/// networks, film or file fail, or there is no face.
 void PrintFilmTrack(const FilmTrack& wanted);
 
 }  // namespace facetrack

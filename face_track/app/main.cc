@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "face_fit/find/network/attention_points.h"
@@ -50,12 +51,21 @@ void AddOptions(CLI::App& app, FilmTrack& wanted) {
       ->check(CLI::Range(0.1, 1000.0));
   app.add_option("--networks", wanted.networks,
                  "Where scripts/face_networks.sh put the networks (default: where it does)");
+  auto* const lesson = app.add_option(
+      "--learn-units", wanted.lesson,
+      "Prints how this person's face moves, in place of the track: a table of when the film shows "
+      "which unit, rows 'show FROM TO UNIT [DOSE]' (seconds)");
+  app.add_option("--person", wanted.person,
+                 "How the face that is followed moves: what --learn-units printed")
+      ->excludes(lesson);
   app.add_flag("--quiet", wanted.quiet, "Nothing on standard error but errors");
 }
 
-/// A tracker of what `name` is; `stdin_free`: standard input brings no commands.
+/// A tracker of what `name` is; `stdin_free`: standard input brings no commands. `face` outlives
+/// it.
 vm::Result<std::unique_ptr<LiveTracker>> Open(boost::asio::io_context& io, const FilmTrack& wanted,
-                                              bool stdin_free, const std::string& name,
+                                              const SeenFace& face, bool stdin_free,
+                                              const std::string& name,
                                               const Tracker::Settings& settings,
                                               LiveTracker::Events events) {
   if (name == "-" && !stdin_free) {
@@ -70,7 +80,8 @@ vm::Result<std::unique_ptr<LiveTracker>> Open(boost::asio::io_context& io, const
   if (!source) return std::unexpected(source.error());
   return std::make_unique<LiveTracker>(
       io, std::move(*source), IsLive(name),
-      std::make_unique<LiveTracker::Looker>(std::move(*networks), std::move(*attention), settings),
+      std::make_unique<LiveTracker::Looker>(std::move(*networks), std::move(*attention), face,
+                                            settings),
       std::move(events));
 }
 
@@ -78,6 +89,7 @@ vm::Result<std::unique_ptr<LiveTracker>> Open(boost::asio::io_context& io, const
 
 int main(int argc, char** argv) {
   FilmTrack wanted;
+  SeenFace face;  // of the module
   const bool stdin_free = std::any_of(argv + 1, argv + argc, [](std::string_view word) {
     return word.starts_with("--listen") || word.starts_with("--connect");
   });
@@ -92,7 +104,11 @@ int main(int argc, char** argv) {
        .add_options = [&](CLI::App& app) { AddOptions(app, wanted); },
        .before_start =
            [&] {
-             if (wanted.film.empty()) return -1;
+             if (wanted.film.empty()) {
+               if (!wanted.lesson.empty()) throw std::runtime_error("--learn-units needs a film");
+               face = FaceToFollow(wanted.person);
+               return -1;
+             }
              PrintFilmTrack(wanted);
              return 0;
            },
@@ -104,10 +120,10 @@ int main(int argc, char** argv) {
                  TrackModule::Options{
                      .module_version = "Galatea face_track " GALATEA_VERSION,
                      .tracker = wanted.tracker,
-                     .open = [&io, &wanted, stdin_free](const std::string& name,
-                                                        const Tracker::Settings& settings,
-                                                        LiveTracker::Events events) {
-                       return Open(io, wanted, stdin_free, name, settings, std::move(events));
+                     .open = [&io, &wanted, &face, stdin_free](const std::string& name,
+                                                               const Tracker::Settings& settings,
+                                                               LiveTracker::Events events) {
+                       return Open(io, wanted, face, stdin_free, name, settings, std::move(events));
                      }});
            }});
 }

@@ -12,6 +12,7 @@
 
 #include "face_track/fit/image_fit.h"
 #include "face_track/fit/person.h"
+#include "face_track/model/shown_units.h"
 
 namespace facetrack {
 namespace {
@@ -89,12 +90,12 @@ float Tremble(const FrameFit& fit, const Person& met, Sitter& sitter) {
   return std::sqrt(squares / static_cast<float>(std::size(kLittle)));
 }
 
-/// The face with these units of both sides at kDose.
-fsm::FaceState Together(std::span<const int> units) {
+/// The face with these units of both sides at a dose.
+fsm::FaceState Together(std::span<const int> units, float dose = kDose) {
   fsm::FaceState state;
   state.asymmetry = 0;
   for (const fsm::Side side : fsm::kSides) {
-    for (const int unit : units) state.au[side][static_cast<std::size_t>(unit)] = kDose;
+    for (const int unit : units) state.au[side][static_cast<std::size_t>(unit)] = dose;
   }
   return state;
 }
@@ -170,6 +171,20 @@ void JudgeExpressions(const FrameFit& fit, const Person& met, Sitter& sitter, co
              100 * off / static_cast<float>(count), others);
 }
 
+/// What the points do as the head shows each unit.
+std::vector<ShownUnit> Shown(const FrameFit& fit, const Person& met, Sitter& sitter,
+                             const Doing& rest) {
+  std::vector<ShownUnit> shown;
+  for (const Channel& channel : fit.face().channels) {
+    if (channel.kind != Channel::Kind::kUnit || channel.side == "L") continue;
+    ShownUnit& unit = shown.emplace_back(ShownUnit{.unit = channel.unit, .moved = {}});
+    const auto sight = sitter.Look(Together({&unit.unit, 1}, unit.dose));
+    const Doing doing = fit.Solve(met.rest, sight.places, rest, What::kDoses);
+    for (const glm::vec3& p : MovedBy(fit, met, sight, doing)) unit.moved.emplace_back(p);
+  }
+  return shown;
+}
+
 /// Mean and deviation of a number of some doses.
 struct Average {
   float mean = 0, deviation = 0;
@@ -183,12 +198,15 @@ struct Average {
 
 }  // namespace
 
-std::vector<JudgedDose> Judge(const SeenFace& face, Sitter& sitter) {
-  const FrameFit fit(face, sitter.lens());
+std::vector<JudgedDose> Judge(const SeenFace& usual, Sitter& sitter, bool shown) {
+  const FrameFit usual_fit(usual, sitter.lens());
   const auto at_rest = sitter.Look({});
-  const Person met = Meet(fit, {{.places = at_rest.places, .depth = at_rest.depth}});
-  const Doing rest = fit.Solve(met.rest, at_rest.places, fit.Guess(at_rest.places), What::kPose);
-  JudgeTurns(fit, met, sitter, at_rest, rest);
+  const Person met = Meet(usual_fit, {{.places = at_rest.places, .depth = at_rest.depth}});
+  const Doing rest =
+      usual_fit.Solve(met.rest, at_rest.places, usual_fit.Guess(at_rest.places), What::kPose);
+  JudgeTurns(usual_fit, met, sitter, at_rest, rest);
+  const SeenFace face = shown ? FaceOfPerson(usual, Shown(usual_fit, met, sitter, rest)) : usual;
+  const FrameFit fit(face, sitter.lens());
   const auto judged = JudgeDoses(fit, met, sitter, rest);
   float off = 0;
   for (const JudgedDose& dose : judged) off += Off(dose.found) / static_cast<float>(judged.size());

@@ -17,7 +17,8 @@ struct JudgedDose {
 };
 
 /// Prints how turns of a face are found, and how far off its doses are on the mean. Returns them.
-std::vector<JudgedDose> Judge(const SeenFace& face, Sitter& sitter);
+/// `shown`: the face shows each unit at 1 first, and doses are found by how it moved.
+std::vector<JudgedDose> Judge(const SeenFace& usual, Sitter& sitter, bool shown);
 
 /// A line of each unit over all faces, those of which the points move most first.
 std::string TableOfUnits(const std::vector<JudgedDose>& judged);

@@ -175,10 +175,19 @@ void Learn(const std::string& out, std::size_t heads, const std::string& folder)
   HeadPainter painter;
   Sums sums;
   sums.face.channels = Channels();
-  for (std::size_t number = 0; number < heads; ++number) {
-    std::cerr << fmt::format("face_track_learn: head {} of {}\n", number + 1, heads);
+  for (std::size_t number = 0; static_cast<std::size_t>(sums.heads) < heads; ++number) {
+    std::cerr << fmt::format("face_track_learn: head {} of {}\n", sums.heads + 1, heads);
     Sitter sitter(SomeHead(number), networks, attention, painter);
-    sums.Add(sitter);
+    Sums with = sums;
+    try {
+      with.Add(sitter);
+    } catch (const std::runtime_error& lost) {
+      if (number < 2 || number > 2 * heads) throw;
+      std::cerr << fmt::format("face_track_learn: number {} is left out: {}\n", number,
+                               lost.what());
+      continue;
+    }
+    sums = std::move(with);
   }
   SeenFace face = sums.Mean();
   sums.FitSlides(face);
@@ -196,7 +205,7 @@ std::unique_ptr<fsm::Head> JudgedHead(const std::string& name) {
   return made ? SomeHead(number) : fsm::MakeHeadOfName(name);
 }
 
-void JudgeFaces(const std::vector<std::string>& names, const std::string& folder) {
+void JudgeFaces(const std::vector<std::string>& names, bool shown, const std::string& folder) {
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(folder));
   facefit::AttentionNetwork attention = vm::OrThrow(facefit::AttentionNetwork::Load(folder));
   HeadPainter painter;
@@ -204,7 +213,7 @@ void JudgeFaces(const std::vector<std::string>& names, const std::string& folder
   for (const std::string& name : names) {
     fmt::print("{}\n", name);
     Sitter sitter(JudgedHead(name), networks, attention, painter);
-    const auto doses = Judge(SeenFace::Shipped(), sitter);
+    const auto doses = Judge(SeenFace::Shipped(), sitter, shown);
     judged.insert(judged.end(), doses.begin(), doses.end());
   }
   fmt::print("{}", TableOfUnits(judged));
@@ -216,17 +225,19 @@ int main(int argc, char** argv) {
   std::string out, networks;
   std::vector<std::string> judged;
   std::size_t heads = 8;
-  bool mouth = false;
+  bool mouth = false, shown = false;
   CLI::App app(
       "Draws our heads and writes what the landmark network sees of them (docs/tracking.md)");
   auto* table = app.add_option("out", out, "The table to write: face_track/tables/seen_face.txt");
   app.add_option("--heads", heads, "How many heads; from the third on they are made by chance")
       ->check(CLI::Range(1, 100));
-  app.add_option(
-         "--judge", judged,
-         "Learns nothing, and prints how turns and units of these faces are found; a number is a "
-         "face made by chance")
-      ->excludes(table);
+  auto* const judge = app.add_option("--judge", judged,
+                                     "Learns nothing, and prints how turns and units of these "
+                                     "faces are found; a number is a "
+                                     "face made by chance")
+                          ->excludes(table);
+  app.add_flag("--shown", shown, "The judged faces show each unit first, as --learn-units has it")
+      ->needs(judge);
   app.add_flag("--mouth", mouth,
                "The table is face_track/tables/mouth_of_lips.txt, by what seen_face.txt is now")
       ->needs(table);
@@ -234,7 +245,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     if (!judged.empty())
-      JudgeFaces(judged, networks);
+      JudgeFaces(judged, shown, networks);
     else if (mouth)
       WriteTable(out, LearnMouth(heads, networks).Print());
     else

@@ -32,15 +32,16 @@ class LiveTracker {
     /// There are no more pictures; why, if not because that was all.
     std::function<void(const std::optional<vm::Error>& error)> over;
   };
-  /// What tracks: the networks it needs live as long as it does.
+  /// What tracks: the networks it needs live as long as it does. The face outlives it.
   struct Looker {
     facefit::FaceNetworks networks;
     facefit::AttentionNetwork attention;
     Tracker tracker;
-    Looker(facefit::FaceNetworks n, facefit::AttentionNetwork a, const Tracker::Settings& settings)
+    Looker(facefit::FaceNetworks n, facefit::AttentionNetwork a, const SeenFace& face,
+           const Tracker::Settings& settings)
         : networks(std::move(n)),
           attention(std::move(a)),
-          tracker(networks, attention, SeenFace::Shipped(), settings) {}
+          tracker(networks, attention, face, settings) {}
   };
 
   /// `paced`: the source gives its pictures at its own pace (IsLive).

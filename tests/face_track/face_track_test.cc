@@ -124,6 +124,45 @@ TEST_F(FaceTrackTest, ATurnIsFollowedWithinADegreeAndAHalfAndShutLidsAreSeen) {
   EXPECT_NE(svg.str().find("</svg>"), std::string::npos);
 }
 
+TEST_F(FaceTrackTest, AHeadThatShowsUnitsFirstIsToldTheirDosesAfterwards) {
+  const auto film = [](const std::string& name, const std::string& dose) {
+    support::Process fsm({GALATEA_BIN_DIR "/fsm", "--headless", "--clock", "virtual", "--size",
+                          "400x400", "--mask", "baucis"});
+    std::string lines = "set Camera = 1 0 25\nset Record.fps = " + std::to_string(kRate) +
+                        "\nset Record = " + Path(name) + "\nset Wait = 1200\n";
+    for (const char* unit : {"6", "14"}) {
+      lines += std::string("set AU = ") + unit + " " + dose +
+               " 60\nset Wait = 1000\nset AU = " + unit + " 0 60\nset Wait = 500\n";
+    }
+    fsm.Write(lines + "set Record = STOP\n");
+    fsm.CloseInput();
+    fsm.ReadAll(support::Millis{120000});
+    EXPECT_EQ(fsm.Wait(), 0) << fsm.ErrorText();
+  };
+  film("shown.mp4", "1");
+  film("less.mp4", "0.7");
+  std::ofstream(Path("prompts.txt")) << "show 1.3 2.3 6\nshow 2.8 3.8 14\n";
+  const Ran learned = Track(
+      {Path("shown.mp4"), "--learn-units", Path("prompts.txt"), "--out", Path("baucis.units")});
+  ASSERT_EQ(learned.code, 0) << learned.error;
+  // How far the doses of units 6 and 14 are from 0.7 as they are held.
+  const auto off = [](std::vector<std::string> more) {
+    more.insert(more.begin(), Path("less.mp4"));
+    const Ran ran = Track(more);
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    const auto rows = ran.Rows();
+    return std::pair(std::abs(std::stod(rows.at(30).at("au6L")) - 0.7),
+                     std::abs(std::stod(rows.at(52).at("au14L")) - 0.7));
+  };
+  const auto usual = off({}), own = off({"--person", Path("baucis.units")});
+  EXPECT_LT(own.first, 0.15);
+  EXPECT_LT(own.second, 0.15);
+  EXPECT_GT(usual.first + usual.second, own.first + own.second);
+  const Ran damaged = Track({Path("less.mp4"), "--person", Path("prompts.txt")});
+  EXPECT_EQ(damaged.code, 1);
+  EXPECT_EQ(damaged.error, "face_track: " + Path("prompts.txt") + ":1: expected 'shown'\n");
+}
+
 TEST_F(FaceTrackTest, NoiseCompressionAndHalfLightChangeLittleAndLessWithCare) {
   const std::string film =
       Made({"-i", Path("baucis.mp4"), "-vf", "noise=alls=8:allf=t,eq=brightness=-0.1:contrast=0.6",
