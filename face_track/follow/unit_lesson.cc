@@ -77,17 +77,17 @@ vm::Result<UnitLesson> UnitLesson::Parse(const std::string& name, std::string_vi
 }
 
 void UnitLesson::Add(const FaceLine& line) {
-  while (failed_ && next_ < prompts_.size()) {
+  while (so_far_ && next_ < prompts_.size()) {
     // The rest lasts until the first prompt begins, what is shown until it ends.
     const Prompt& prompt = prompts_[next_];
     if (line.ms < (rest_.empty() ? prompt.from_ms : prompt.to_ms)) break;
     Close();
   }
-  if (next_ == prompts_.size() || !failed_ || line.person == 0) return;
+  if (next_ == prompts_.size() || !so_far_ || line.person == 0) return;
   if (!rest_.empty() && line.ms < prompts_[next_].from_ms) return;
   if (person_ == 0) person_ = line.person;
   if (line.person != person_) {
-    failed_ =
+    so_far_ =
         vm::Fail(vm::Errc::kBadValue, fmt::format("another face from {:.1f} s on", line.ms / 1000));
     return;
   }
@@ -98,7 +98,7 @@ void UnitLesson::Close() {
   std::vector<Points> pictures = std::exchange(pictures_, {});
   if (rest_.empty()) {
     if (pictures.empty())
-      failed_ = vm::Fail(vm::Errc::kBadValue, "no face is seen before the first unit is shown");
+      so_far_ = vm::Fail(vm::Errc::kBadValue, "no face is seen before the first unit is shown");
     else
       rest_ = UsualPlaces(pictures);
     return;
@@ -122,8 +122,8 @@ void UnitLesson::Close() {
 }
 
 vm::Result<UnitLesson::Learned> UnitLesson::Finish() {
-  while (failed_ && next_ < prompts_.size()) Close();
-  if (!failed_) return std::unexpected(failed_.error());
+  while (so_far_ && next_ < prompts_.size()) Close();
+  if (!so_far_) return std::unexpected(so_far_.error());
   return std::move(learned_);
 }
 

@@ -55,7 +55,7 @@ class UnitLesson {
   int person_ = 0;                // the first one
   Points rest_;
   Learned learned_;
-  vm::Result<void> failed_{};
+  vm::Result<void> so_far_{};  // an error ends the lesson
 };
 
 }  // namespace facetrack

@@ -204,7 +204,8 @@ class LongShape {
          Wave(around, side, hang, out);
     p.z += front * hanging.forward * hang * (1 - hanging.forward_less_ends * hang);
     // Beside the face it follows the cheek.
-    p.x -= SignOf(side) * front * hanging.cheek * SmoothStep(0, 1, hanging.cheek_rise * hang);
+    p.x -= SignOf(side) * front * hanging.cheek *
+           std::sin(std::min(1.0f, hanging.cheek_quarter_waves * hang) * kPi * 0.5f);
     return OffBody(around, p);
   }
 
@@ -333,9 +334,9 @@ class LongHairBuilder {
 
   void Shell(Side side) {
     const auto& light = hair_.light;
-    constexpr int kStrands = 24;
+    constexpr int kStrands = 22;
     constexpr int kCapRows = 16;  // the skull is round; hanging hair is nearly straight
-    constexpr int kRows = 34;
+    constexpr int kRows = 26;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Strands are denser at the face, where the edge is visible.
@@ -462,7 +463,7 @@ class LongHairBuilder {
       const float to = locks.to.At(NoiseAt(seed, PaintStream::kLockTo));
       const float lift = locks.lift.At(NoiseAt(seed, PaintStream::kLockLift));
       std::vector<glm::vec3> path;
-      constexpr int kSteps = 15;
+      constexpr int kSteps = 11;
       for (int s = 0; s <= kSteps; ++s) {
         // Steps are shorter over the skull, which is round.
         const float v = std::pow(static_cast<float>(s) / kSteps, locks.crowd_power);
@@ -490,7 +491,7 @@ class LongHairBuilder {
     const float to = frame.to.At(NoiseAt(seed, PaintStream::kLockTo));
     const float phase = 3 * NoiseAt(seed, PaintStream::kLockLift);
     std::vector<glm::vec3> path;
-    constexpr int kSteps = 18;
+    constexpr int kSteps = 14;
     for (int s = 0; s <= kSteps; ++s) {
       const float v = static_cast<float>(s) / kSteps;
       const float along = glm::mix(from, to, v);

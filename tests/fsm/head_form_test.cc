@@ -179,7 +179,7 @@ TEST(HeadFormTest, SkinHasNoOpenEdgeButAtTheNeck) {
 TEST(HeadFormTest, FitsTheBudget) {
   for (const std::string& identity : Identities()) {
     const auto head = MakeHead(identity);
-    EXPECT_LT(head->surface().indices.size() / 3, 21600u) << identity;
+    EXPECT_LT(head->surface().indices.size() / 3, 20200u) << identity;
     EXPECT_EQ(head->surface().uv.size(), head->surface().albedo.size());
   }
 }
