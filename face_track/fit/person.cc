@@ -30,6 +30,19 @@ Points Deepened(const SeenFace& face, const std::vector<Sighting>& pictures) {
 
 }  // namespace
 
+Points MedianOf(const std::vector<Points>& pictures) {
+  Points median(kPoints);
+  std::vector<float> values(pictures.size());
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::ranges::transform(pictures, values.begin(),
+                             [&](const Points& points) { return points[i][axis]; });
+      median[i][axis] = MedianOf(values);
+    }
+  }
+  return median;
+}
+
 Person Meet(const FrameFit& fit, const std::vector<Sighting>& pictures) {
   Person person{.rest = Deepened(fit.face(), pictures)};
   for (int round = 0; round < 2; ++round) {
@@ -39,14 +52,7 @@ Person Meet(const FrameFit& fit, const std::vector<Sighting>& pictures) {
           fit.Solve(person.rest, picture.places, fit.Guess(picture.places), FrameFit::What::kPose);
       seen.push_back(fit.OnFace(person.rest, picture.places, doing));
     }
-    std::vector<float> values(seen.size());
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        std::ranges::transform(seen, values.begin(),
-                               [&](const Points& points) { return points[i][axis]; });
-        person.rest[i][axis] = MedianOf(values);
-      }
-    }
+    person.rest = MedianOf(seen);
   }
   std::vector<float> misses;
   for (const Sighting& picture : pictures) {

@@ -18,6 +18,10 @@ struct Sighting {
   std::vector<float> depth;       ///< of the network's points, mm, as it gives it
 };
 
+/// Where each point lies in the middle of these pictures, each axis by itself. REQUIRES: one or
+/// more.
+Points MedianOf(const std::vector<Points>& pictures);
+
 /// The usual face bent to how these pictures show it: the median of where each point lies, and part
 /// of the depth the network gives. What the face does in most of them is taken for its rest.
 /// REQUIRES: one picture or more.

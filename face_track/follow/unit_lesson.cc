@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "face_track/fit/person.h"
 #include "fsm/base/table_reader.h"
 
 namespace facetrack {
@@ -14,22 +15,6 @@ namespace {
 
 constexpr float kHardlyShown = 0.15F;    // of how far the points usually go
 constexpr double kLongestLesson = 3600;  // seconds
-
-/// Where each point lies in the middle of these pictures. REQUIRES: one or more.
-Points UsualPlaces(const std::vector<Points>& pictures) {
-  Points median(kPoints);
-  std::vector<float> values(pictures.size());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  for (std::size_t i = 0; i < kPoints; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      std::ranges::transform(pictures, values.begin(),
-                             [&](const Points& points) { return points[i][axis]; });
-      std::ranges::nth_element(values, middle);
-      median[i][axis] = *middle;
-    }
-  }
-  return median;
-}
 
 /// How far points lie from their rest the usual way, in parts of it.
 float PartOf(const std::vector<glm::vec2>& usual, const Points& points, const Points& rest) {
@@ -100,7 +85,7 @@ void UnitLesson::Close() {
     if (pictures.empty())
       so_far_ = vm::Fail(vm::Errc::kBadValue, "no face is seen before the first unit is shown");
     else
-      rest_ = UsualPlaces(pictures);
+      rest_ = MedianOf(pictures);
     return;
   }
   const Prompt& prompt = prompts_[next_++];
@@ -112,7 +97,7 @@ void UnitLesson::Close() {
   std::ranges::sort(pictures, std::greater{},
                     [&](const Points& points) { return PartOf(usual, points, rest_); });
   pictures.resize((pictures.size() + 1) / 2);
-  const Points most = UsualPlaces(pictures);
+  const Points most = MedianOf(pictures);
   const float part = PartOf(usual, most, rest_);
   if (part < kHardlyShown)
     return leave_out(fmt::format("the points go {:.0f} % of the usual way", 100 * part));
