@@ -140,7 +140,7 @@ class ToothRow {
     const float between = features_.light_between_teeth;
     const float crevice = between + (1 - between) * SmoothStep(0.0f, 0.75f, column.bump);
     const float dark =
-        glm::mix(jaw_.light, features_.teeth_light.deep, SmoothStep(6, 32, std::abs(column.arc)));
+        glm::mix(jaw_.light, features_.teeth_light.deep, SmoothStep(6, 40, std::abs(column.arc)));
     mesh_.Add(p, Enamel(column.tooth, row), crevice * dark * (row < -0.3f ? 0.4f : 1.0f), jaw_.bone,
               kWithTeeth);
   }
