@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the networks and the table of emotions anew that vdm carries (vdm/tables), from speech that is made here and recordings of
-# people, which it fetches (scripts/people_speech.py): two and a half hours on two cores.
+# people, which it fetches (scripts/people_speech.py): two and three quarter hours on two cores.
 #   scripts/train_networks.sh [FOLDER]
 # FOLDER (networks_training) keeps speech and courses: ended and called again, it goes on where it was. One machine
 # gives the same networks each time; others give some of about the same quality (docs/vdm.md).
@@ -29,8 +29,11 @@ phones=(--features phones --width 192 --long-past "${people[@]}")
 # Each goes on with the network before, other chances and smaller steps.
 learn first.net "${phones[@]}" --epochs 20
 learn second.net "${phones[@]}" --from "$folder/first.net" --epochs 12 --rate 0.001 --seed 5
-train phones.net "${phones[@]}" --from "$folder/second.net" --epochs 16 --rate 0.0008 --seed 6
-train words.net --features words --width 96 --epochs 6 "${people[@]}"
+learn third.net "${phones[@]}" --from "$folder/second.net" --epochs 16 --rate 0.0008 --seed 6
+train phones.net "${phones[@]}" --from "$folder/third.net" --epochs 6 --rate 0.0004 --seed 11
+words=(--features words --width 96 "${people[@]}")
+learn first_words.net "${words[@]}" --epochs 6
+train words.net "${words[@]}" --from "$folder/first_words.net" --epochs 3 --rate 0.0004 --seed 11
 train mel.net
 train cepstra.net --features cepstra --epochs 12
 # Heads hear what mel.net says, which is built in.

@@ -125,9 +125,10 @@ TEST_F(GatewayTest, SoundGoesInAndFramesComeOut) {
         shut, [&](double t) { return t >= said.first - 0.02 && t <= said.second + 0.02; });
   };
   const auto in_m = shut_in(Said("m", 1)), in_b = shut_in(Said("b", 0));
+  const auto elsewhere = std::ssize(shut) - in_m - in_b - shut_in(Said("m", 0));
   EXPECT_GE(in_m, 2) << "the second m of Mama";
   EXPECT_GE(in_b, 1) << "the b of bought";
-  EXPECT_EQ(in_m + in_b, std::ssize(shut)) << "and nowhere else";
+  EXPECT_EQ(elsewhere, 0) << "but for the first m, which is short";
 }
 
 TEST_F(GatewayTest, FramesComeWhileTheSoundStillDoes) {
