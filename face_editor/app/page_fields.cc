@@ -93,7 +93,9 @@ bool Row(Ui& ui, int row, const UnitRow& what) {
   if (kind.word == "field") {
     Field(ui, row, what, kind);
   } else {
-    for (std::size_t i = 0; i < kind.columns.size(); ++i) {
+    // The last number of a crease may be left out.
+    const std::size_t count = std::min(kind.columns.size(), what.words.size() - kind.first);
+    for (std::size_t i = 0; i < count; ++i) {
       Number(ui, row, what, kind.first + i, kind.columns[i], 180,
              LabelOf(kind.word, kind.columns[i].name));
     }

@@ -57,7 +57,9 @@ vm::Result<void> Editor::SetRow(int unit, int row, std::string_view column,
   const auto word = kind.first + static_cast<std::size_t>(found - kind.columns.begin());
   const bool one_word = !value.empty() && value.find_first_of(" \t\r\n#") == std::string::npos;
   if (!one_word || value.size() > 40) return Fail(Errc::kBadValue, "one word or number expected");
-  rows[*at].words[word] = value;
+  auto& words = rows[*at].words;
+  if (word == words.size()) words.emplace_back();  // the last number of a crease, left out before
+  words[word] = value;
   return ChangeRows(std::move(rows), fmt::format("unit {}, {} {}", unit, kind.word, column), merge);
 }
 

@@ -106,8 +106,9 @@ const std::vector<UnitRowKind>& UnitRowKinds() {
         {"glabella", 0, 1},
         {"crows_feet", 0, 1},
         {"nasolabial", 0, 1},
-        {"nose", 0, 1}},
-       "0 0 0 0.5 0"},
+        {"nose", 0, 1},
+        {"forehead_sides", 0, 1}},
+       "0 0 0 0.5 0 0"},
       {"damp", "is weaker beside unit", 3, {{"part", 0, 1}}, "26 0.5"},
       {"oppose", "shares the face with unit", 3, {}, "26"},
       {"strongest", "only the stronger acts, it or unit", 3, {}, "26"}};

@@ -67,6 +67,7 @@ class RenderContext;
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
   X(PFNGLUNIFORM1FVPROC, Uniform1fv)                           \
   X(PFNGLUNIFORM1IVPROC, Uniform1iv)                           \
+  X(PFNGLUNIFORM2FVPROC, Uniform2fv)                           \
   X(PFNGLUNIFORM3FVPROC, Uniform3fv)                           \
   X(PFNGLUNIFORM4FVPROC, Uniform4fv)                           \
   X(PFNGLUNIFORMMATRIX3FVPROC, UniformMatrix3fv)               \

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <initializer_list>
@@ -82,6 +83,8 @@ class GlProgram {
       gl_.Uniform1iv(*location, count, values);
     } else if constexpr (std::is_same_v<T, float>) {
       gl_.Uniform1fv(*location, count, values);
+    } else if constexpr (std::is_same_v<T, glm::vec2>) {
+      gl_.Uniform2fv(*location, count, &values->x);
     } else if constexpr (std::is_same_v<T, glm::vec3>) {
       gl_.Uniform3fv(*location, count, &values->x);
     } else if constexpr (std::is_same_v<T, glm::vec4>) {

@@ -16,12 +16,12 @@ const glm::vec4 kZero(0);
 struct DetailAttributes {
   std::vector<glm::vec2> texcoord;
   std::vector<glm::vec4> detail;
-  std::vector<glm::vec2> more;
+  std::vector<glm::vec3> more;
 };
 
 DetailAttributes DetailOf(const HeadSurface& surface, const CreaseWeights& creases,
                           std::size_t count) {
-  DetailAttributes detail{surface.uv, creases.face, creases.nose_and_left};
+  DetailAttributes detail{surface.uv, creases.face, creases.more};
   detail.texcoord.resize(count);
   detail.detail.resize(count);
   detail.more.resize(count);
@@ -34,7 +34,7 @@ DetailAttributes DetailOf(const HeadSurface& surface, const CreaseWeights& creas
       // Single hairs cross the outline, where all others thin out, and linings do so in part.
       const float across = std::abs(strand.across);
       const bool thins = part.material == Material::kHair && i < surface.strands.size();
-      detail.more[i] = glm::vec2(strand.across, !thins ? 0 : across < 1 ? 1 - 2 * across : 1);
+      detail.more[i] = glm::vec3(strand.across, !thins ? 0 : across < 1 ? 1 - 2 * across : 1, 0);
     }
   }
   return detail;
@@ -71,7 +71,7 @@ PaintAttributes PaintOf(const HeadSurface& surface) {
 std::vector<SkinDetail> SkinDetailOf(const PaintAttributes& paint, const DetailAttributes& detail) {
   std::vector<SkinDetail> out(paint.opacity.size(), SkinDetail::kPlain);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (detail.detail[i] != kZero || detail.more[i] != glm::vec2(0)) out[i] = SkinDetail::kCreased;
+    if (detail.detail[i] != kZero || detail.more[i] != glm::vec3(0)) out[i] = SkinDetail::kCreased;
     if (paint.opacity[i] < 1 || paint.lid_skin[i].x > 0) out[i] = SkinDetail::kDetailed;
   }
   return out;
@@ -134,6 +134,7 @@ void HeadVertexArrays::UploadAttributes(const HeadVertices& rest) {
     gl_.EnableVertexAttribArray(i);
   }
   const auto upload = [this](VertexAttribute::Location attribute, const auto& items) {
+    assert(sizeof(items[0]) == VertexAttribute::kWidth[attribute] * sizeof(float));
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[attribute]);
     gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])),
                    items.data(), GL_STATIC_DRAW);

@@ -46,11 +46,13 @@ MaterialFrame FrameOf(const Appearance& appearance, const FrameCamera& view,
       .rest_to_world = glm::mat3(view.figure_to_world) * shadows.rotation,
       .lamp_brightness = std::sqrt((lamps.colours[0].g + lamps.colours[1].g + room) / usual),
       .creases = {},
-      .nose_creases = vertices.creases[static_cast<std::size_t>(Crease::kNose)]};
+      .more_creases = {}};
   for (const Side side : kSides) {
     for (int k = 0; k < 4; ++k) {
       frame.creases[side][k] = vertices.creases[static_cast<std::size_t>(k)][side];
     }
+    frame.more_creases[side] = {Of(vertices.creases, Crease::kNose)[side],
+                                Of(vertices.creases, Crease::kForeheadSides)[side]};
   }
   return frame;
 }
@@ -86,7 +88,7 @@ void SetLight(const GlProgram& program, const MaterialFrame& frame) {
 
 void SetCreases(const GlProgram& program, const MaterialFrame& frame) {
   program.Set("crease_depths", frame.creases.InOrder());
-  program.Set("nose_creases", frame.nose_creases.InOrder());
+  program.Set("more_crease_depths", frame.more_creases.InOrder());
 }
 
 std::string ShaderConstant(const char* name, bool value) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <initializer_list>
@@ -32,8 +33,8 @@ struct MaterialFrame {
   glm::mat3 rest_to_world;  ///< rotation of the head, with the figure's scale
   /// Brightness of the lamps relative to the default, which stands for the photo's own light.
   float lamp_brightness;
-  Sided<glm::vec4> creases;  ///< depth of each Crease but the nose's, 0..1
-  Sided<float> nose_creases;
+  Sided<glm::vec4> creases;       ///< depth of each of the first four Creases, 0..1
+  Sided<glm::vec2> more_creases;  ///< those of the nose and of the sides of the forehead
 };
 MaterialFrame FrameOf(const Appearance& appearance, const FrameCamera& view,
                       const HeadDescription& head, const HeadVertices& vertices,

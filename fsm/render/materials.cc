@@ -67,7 +67,7 @@ void Materials::BeginFrame(const FrameCamera& view, const GpuHead& head,
                            const HeadVertices& vertices, const Scene& scene) {
   head_ = &head;
   const MaterialFrame frame = FrameOf(appearance_, view, head.description, vertices, scene);
-  creased_ = frame.creases != Sided<glm::vec4>{} || frame.nose_creases != Sided<float>{};
+  creased_ = frame.creases != Sided<glm::vec4>{} || frame.more_creases != Sided<glm::vec2>{};
   pores_ = view.samples_per_mm >= appearance_.pores_from;
   photo_.Prepare(head.description, head.arrays.FinestParts());
   if (!head.description.surface->pbr_materials.empty() && !pbr_) {

@@ -149,9 +149,10 @@ CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landma
                       (alare.x + skin.fold_region.fade_side).Ramp(side));
     const float nose =
         front * between * (1 - over_nose) * (nasion.y + skin.nose_region.fade_down).Ramp(p.y);
+    const float sides = face.x * skin.forehead_region.sides.Ramp(side);
     const bool creases = nose > 0 || face != glm::vec4(0);
-    out.face.push_back(face);
-    out.nose_and_left.emplace_back(nose, creases ? skin.creased.left.Ramp(p.x) : 0.0f);
+    out.face.push_back(face - glm::vec4(sides, 0, 0, 0));
+    out.more.emplace_back(nose, sides, creases ? skin.creased.left.Ramp(p.x) : 0.0f);
   }
   return out;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
@@ -36,8 +35,8 @@ class CreaseRelief {
 
 /// How much each crease shows at each vertex, 0..1.
 struct CreaseWeights {
-  std::vector<glm::vec4> face;           ///< forehead, glabella, crow's feet, nasolabial
-  std::vector<glm::vec2> nose_and_left;  ///< nose; the left side's part in the depth
+  std::vector<glm::vec4> face;  ///< forehead, glabella, crow's feet, nasolabial
+  std::vector<glm::vec3> more;  ///< nose, sides of the forehead; the left side's part in the depth
 };
 CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks,
                            const Appearance& appearance);

@@ -18,16 +18,16 @@ struct VertexAttribute {
     kAlbedoOpenness,  ///< linear RGB (on lids ShutLid::colour); openness to light, 0..1
     kDetailTexcoord,  ///< skin: HeadSurface::uv; hair: Strand::tile_mm
     kDetail,          ///< skin: CreaseWeights::face; hair: Strand::along and density
-    kDetailMore,   ///< skin: CreaseWeights::nose_and_left; hair: Strand::across, thins at outline
-    kTexcoord,     ///< TextureMaps::texcoord and weight; ShutLid::weight
-    kLidGrain,     ///< ShutLid::grain_at and slide
-    kOpacity,      ///< HeadSurface::opacity
-    kRelitNormal,  ///< rest normal, scaled by Portrait::relit
-    kLidSkin       ///< 1 where there is a ShutLid, else 0; its grain_light
+    kDetailMore,      ///< skin: CreaseWeights::more; hair: Strand::across, thins at outline
+    kTexcoord,        ///< TextureMaps::texcoord and weight; ShutLid::weight
+    kLidGrain,        ///< ShutLid::grain_at and slide
+    kOpacity,         ///< HeadSurface::opacity
+    kRelitNormal,     ///< rest normal, scaled by Portrait::relit
+    kLidSkin          ///< 1 where there is a ShutLid, else 0; its grain_light
   };
   static constexpr GLuint kCount = kValuesOf<Location>;
   /// Number of components of each attribute.
-  static constexpr std::array<GLint, kCount> kWidth{3, 3, 3, 4, 2, 4, 2, 4, 4, 1, 3, 2};
+  static constexpr std::array<GLint, kCount> kWidth{3, 3, 3, 4, 2, 4, 3, 4, 4, 1, 3, 2};
 };
 
 }  // namespace fsm

@@ -89,8 +89,9 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
   const bool creased = creases.face.size() == vertices;
   add(creased, [&](std::size_t i) { return kCreaseMm * glm::vec3(creases.face[i]); });
   add(creased, [&](std::size_t i) {
-    return kCreaseMm * glm::vec3(creases.face[i].w, creases.nose_and_left[i]);
+    return kCreaseMm * glm::vec3(creases.face[i].w, creases.more[i].x, creases.more[i].z);
   });
+  add(creased, [&](std::size_t i) { return kCreaseMm * glm::vec3(creases.more[i].y, 0, 0); });
   count_ = columns.size();
   values_.resize(vertices * count_);
   for (std::size_t k = 0; k < count_; ++k) {

@@ -81,6 +81,7 @@ Creases CreaseDepths(const UnitTable& table, const Sided<UnitValues>& au,
   Creases creases{};
   for (const Side side : kSides) {
     for (std::size_t k = 0; k < kLastingCreases; ++k) creases[k][side] = at_rest[k];
+    Of(creases, Crease::kForeheadSides)[side] = Of(creases, Crease::kForehead)[side];
     for (const auto& [unit, what] : table.effects()) {
       const auto* const effect = std::get_if<CreaseEffect>(&what);
       for (std::size_t k = 0; effect && k < kCreases; ++k)

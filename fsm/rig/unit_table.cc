@@ -58,7 +58,12 @@ template <typename Effect>
 UnitEffect ReadEffect(const TableRow& row) {
   Effect effect{};
   std::size_t index = 2;
-  VisitNumbers(effect, [&](float& n, float limit) { n = row.Within(index++, -limit, limit); });
+  VisitNumbers(effect, [&](float& n, float limit) {
+    // Rows without the last number of a crease crease the whole forehead alike.
+    const bool left_out =
+        std::is_same_v<Effect, CreaseEffect> && index == row.size() && index == 1 + kCreases;
+    n = left_out ? row.Within(2, -limit, limit) : row.Within(index++, -limit, limit);
+  });
   row.EndsAt(index);
   return effect;
 }

@@ -15,12 +15,18 @@
 namespace fsm {
 
 /// Regions where expressions crease the skin.
-enum class Crease { kForehead, kGlabella, kCrowsFeet, kNasolabial, kNose };
-inline constexpr std::size_t kCreases = 5;
-/// This many of the first creases may exist at rest, too.
+enum class Crease { kForehead, kGlabella, kCrowsFeet, kNasolabial, kNose, kForeheadSides };
+inline constexpr std::size_t kCreases = 6;
+/// This many of the first creases may exist at rest, too; those of the forehead over all of it.
 inline constexpr std::size_t kLastingCreases = 4;
 /// Depths by Crease, 0..1.
 using Creases = std::array<Sided<float>, kCreases>;
+constexpr Sided<float>& Of(Creases& creases, Crease which) {
+  return creases[static_cast<std::size_t>(which)];
+}
+constexpr const Sided<float>& Of(const Creases& creases, Crease which) {
+  return creases[static_cast<std::size_t>(which)];
+}
 
 // What a unit at full strength does beside displacing skin; each is a kind of row of the table.
 

@@ -73,6 +73,15 @@ TEST(UnitRowsTest, CommandsChangeRowsAndAreTakenBack) {
   EXPECT_EQ(editor->state().units, editor->built_in_units());
 }
 
+TEST(UnitRowsTest, TheLastNumberOfACreaseMayBeLeftOutAndSetAfterThat) {
+  auto editor = *Editor::Make("");
+  EXPECT_EQ(Say(*editor, "add row 29 crease 0.5 0 0 0 0"), "");
+  EXPECT_EQ(Say(*editor, "set row 29 2 nose 0.1"), "");
+  EXPECT_EQ(Say(*editor, "get rows 29"), "1: jaw 29 0 9\n2: crease 29 0.5 0 0 0 0.1");
+  EXPECT_EQ(Say(*editor, "set row 29 2 forehead_sides 0.2"), "");
+  EXPECT_EQ(Say(*editor, "get rows 29"), "1: jaw 29 0 9\n2: crease 29 0.5 0 0 0 0.1 0.2");
+}
+
 TEST(UnitRowsTest, WhatATableCannotHoldIsRefusedAndNothingChanges) {
   auto editor = *Editor::Make("");
   EXPECT_EQ(Say(*editor, "set row 3 1 x 1"),

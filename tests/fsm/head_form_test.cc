@@ -205,15 +205,24 @@ TEST(HeadFormTest, CreasesFollowTheirUnitsAndSides) {
   FaceState state;
   state.au.left[1] = state.au.left[2] = 1;
   const HeadVertices v = Vertices(state);
-  const auto forehead = v.creases[static_cast<std::size_t>(Crease::kForehead)];
-  EXPECT_GT(forehead.left, 0.8f);
-  EXPECT_EQ(forehead.right, 0);
+  for (const Crease forehead : {Crease::kForehead, Crease::kForeheadSides}) {
+    EXPECT_GT(Of(v.creases, forehead).left, 0.8f);
+    EXPECT_EQ(Of(v.creases, forehead).right, 0);
+  }
   EXPECT_GT(Vertices(WithUnit(4, 1)).creases[1].right, 0.5f);
   EXPECT_GT(Vertices(WithUnit(6, 1)).creases[2].right, 0.5f);
   EXPECT_GT(Vertices(WithUnit(12, 1)).creases[3].left, 0.5f);
-  const auto nose = static_cast<std::size_t>(Crease::kNose);
-  EXPECT_GT(Vertices(WithUnit(9, 1)).creases[nose].left, 0.8f);
-  EXPECT_EQ(Vertices(WithUnit(4, 1)).creases[nose].left, 0) << "anger has no lines across the nose";
+  EXPECT_GT(Of(Vertices(WithUnit(9, 1)).creases, Crease::kNose).left, 0.8f);
+  EXPECT_EQ(Of(Vertices(WithUnit(4, 1)).creases, Crease::kNose).left, 0)
+      << "anger has no lines across the nose";
+}
+
+TEST(HeadFormTest, Unit1CreasesTheMiddleOfTheForeheadAndUnit2ItsSides) {
+  const HeadVertices inner = Vertices(WithUnit(1, 1)), outer = Vertices(WithUnit(2, 1));
+  EXPECT_GT(Of(inner.creases, Crease::kForehead).left,
+            3 * Of(inner.creases, Crease::kForeheadSides).left);
+  EXPECT_GT(Of(outer.creases, Crease::kForeheadSides).left,
+            3 * Of(outer.creases, Crease::kForehead).left);
 }
 
 TEST(HeadFormTest, AnOwnUnitCreasesTheSkinByItsRow) {
@@ -223,6 +232,16 @@ TEST(HeadFormTest, AnOwnUnitCreasesTheSkinByItsRow) {
   const float rest = Vertices({}).creases[2].left;
   EXPECT_FLOAT_EQ(v.creases[2].left, rest + 0.5f);
   EXPECT_EQ(UnitTable(Table("own.txt", own.Text())).Text(), own.Text());
+}
+
+TEST(HeadFormTest, ACreaseWithoutItsLastNumberIsThatOfTheWholeForehead) {
+  const UnitTable own(Table("own.txt", "crease 151 0.5 0 0 0 0\n"));
+  HeadVertices v;
+  GenericHead().WithUnits(own)->Evaluate(WithUnit(151, 1), v);
+  const HeadVertices rest = Vertices({});
+  for (const Crease forehead : {Crease::kForehead, Crease::kForeheadSides}) {
+    EXPECT_FLOAT_EQ(Of(v.creases, forehead).left, Of(rest.creases, forehead).left + 0.5f);
+  }
 }
 
 }  // namespace
