@@ -134,7 +134,7 @@ void HeadVertexArrays::UploadAttributes(const HeadVertices& rest) {
     gl_.EnableVertexAttribArray(i);
   }
   const auto upload = [this](VertexAttribute::Location attribute, const auto& items) {
-    assert(sizeof(items[0]) == VertexAttribute::kWidth[attribute] * sizeof(float));
+    assert(std::cmp_equal(sizeof(items[0]) / sizeof(float), VertexAttribute::kWidth[attribute]));
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[attribute]);
     gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])),
                    items.data(), GL_STATIC_DRAW);
