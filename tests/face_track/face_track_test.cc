@@ -95,6 +95,12 @@ class FaceTrackTest : public testing::Test {
     EXPECT_EQ(made.code, 0) << made.error;
     return words.back();
   }
+  /// By how many degrees the head is turned farther to the right in picture 28 than in picture 14.
+  static double Turn(const Ran& ran) {
+    const auto rows = ran.Rows();
+    if (rows.size() < 29) return 0;
+    return std::stod(rows[28].at("right")) - std::stod(rows[14].at("right"));
+  }
   static void ExpectTurn(const Ran& ran, double tolerance, double shut = 0.4) {
     ASSERT_EQ(ran.code, 0) << ran.error;
     const auto rows = ran.Rows();
@@ -103,7 +109,7 @@ class FaceTrackTest : public testing::Test {
     const auto value = [&](std::size_t row, const char* name) {
       return std::stod(rows[row].at(name));
     };
-    EXPECT_NEAR(value(28, "right") - value(14, "right"), 20, tolerance);
+    EXPECT_NEAR(Turn(ran), 20, tolerance);
     EXPECT_NEAR(value(28, "down") - value(14, "down"), 0, tolerance);
     EXPECT_NEAR(value(28, "tilt") - value(14, "tilt"), 0, tolerance);
     EXPECT_GT(value(37, "lidR"), 0.7);
@@ -164,11 +170,24 @@ TEST_F(FaceTrackTest, AHeadThatShowsUnitsFirstIsToldTheirDosesAfterwards) {
 }
 
 TEST_F(FaceTrackTest, NoiseCompressionAndHalfLightChangeLittleAndLessWithCare) {
-  const std::string film =
-      Made({"-i", Path("baucis.mp4"), "-vf", "noise=alls=8:allf=t,eq=brightness=-0.1:contrast=0.6",
-            "-b:v", "300k", "spoiled.mp4"});
-  ExpectTurn(Track({film}), 2, 0.5);
-  ExpectTurn(Track({film, "--careful"}), 1.5, 0.5);
+  // The turn read from one noisy film is off by up to 0.9 degrees with the noise alone, so several
+  // noises are averaged.
+  constexpr int kNoises = 3;
+  const double clean = Turn(Track({Path("baucis.mp4")}));
+  double usual = 0, careful = 0;
+  for (int seed = 1; seed <= kNoises; ++seed) {
+    const std::string noise = "noise=all_seed=" + std::to_string(seed) + ":alls=8:allf=t";
+    const std::string film =
+        Made({"-y", "-i", Path("baucis.mp4"), "-vf", noise + ",eq=brightness=-0.1:contrast=0.6",
+              "-b:v", "300k", "spoiled.mp4"});
+    const Ran once = Track({film}), twice = Track({film, "--careful"});
+    ExpectTurn(once, 3, 0.5);
+    ExpectTurn(twice, 3, 0.5);
+    usual += std::abs(Turn(once) - clean) / kNoises;
+    careful += std::abs(Turn(twice) - clean) / kNoises;
+  }
+  EXPECT_LT(usual, 1.5);
+  EXPECT_LT(careful, usual);
 }
 
 TEST_F(FaceTrackTest, InStrongNoiseAFastTurnIsNoCutAndTheSamePersonIsFollowed) {
