@@ -6,8 +6,10 @@
 namespace vdm {
 namespace {
 
-// Where the lips begin to close and where they are sealed, by the likelihood of a closure.
-constexpr float kClosing = 0.38F, kClosed = 0.61F;
+// Where the lips begin to close and where they are sealed, by the likelihood of a closure that is
+// not decided (below). These and the thresholds of closures were chosen on recordings of a person
+// speaking prompts (docs/vdm.md, Closures that last).
+constexpr float kClosing = 0.5F, kClosed = 0.8F;
 constexpr float kMmPerDegree = 1.4F;
 
 /// How a number of the network becomes one of the mouth: so much larger, since a network that is
@@ -41,7 +43,7 @@ constexpr std::array<Scaling, kMouthParameters> kScalings = {{
 
 // A closure is decided where one is so likely and p, b or m so likely, too. It lasts at least
 // kHeldMs, and as long as it is likelier than kReleased; but after kLeastMs a vowel ends it.
-constexpr float kDecided = 0.5F, kLeastClosure = 0.45F, kReleased = 0.43F, kVowel = 0.45F;
+constexpr float kDecided = 0.33F, kLeastClosure = 0.4F, kReleased = 0.5F, kVowel = 0.35F;
 constexpr double kHeldMs = 40, kLeastMs = 20;
 // Lips pressed, row `b` of mouth_shapes_28.txt, and how far those of a closure go there.
 constexpr std::array<float, kMouthParameters> kPressedLips = {
