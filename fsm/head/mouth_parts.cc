@@ -139,8 +139,8 @@ class ToothRow {
     // Little light reaches the gaps between the teeth and the corners of the mouth.
     const float between = features_.light_between_teeth;
     const float crevice = between + (1 - between) * SmoothStep(0.0f, 0.75f, column.bump);
-    const float dark =
-        glm::mix(jaw_.light, features_.teeth_light.deep, SmoothStep(6, 40, std::abs(column.arc)));
+    const float dark = glm::mix(jaw_.light, features_.teeth_light.deep,
+                                features_.teeth_light.fades.Ramp(std::abs(column.arc)));
     mesh_.Add(p, Enamel(column.tooth, row), crevice * dark * (row < -0.3f ? 0.4f : 1.0f), jaw_.bone,
               kWithTeeth);
   }

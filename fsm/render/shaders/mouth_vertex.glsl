@@ -74,7 +74,8 @@ void main() {
   vec3 sky = Ambient(mouth_to_world * from) + look_mouth_room * (lamp_colours[0] + lamp_colours[1]);
   vec3 soft = sky * amount * Wrapped(dot(from, n), wrap);
   // Light that bounces between the walls is red.
-  vec3 bounced = sky * look_through_flesh * sqrt(amount + look_mouth_seeps) * look_mouth_bounced *
+  vec3 red = mix(vec3(1.0), look_through_flesh, lining ? 1.0 : look_teeth_bounced_red);
+  vec3 bounced = sky * red * sqrt(amount + look_mouth_seeps) * look_mouth_bounced *
                  mix(look_mouth_bounced_front, 1.0, Ramp(look_mouth_bounced_front_edge, inward)) *
                  mix(1.0, look_mouth_bounced_throat, Ramp(look_mouth_bounced_throat_edge, inward)) *
                  (1.0 - out_of_mouth);
