@@ -73,18 +73,18 @@ class Choice {
   }
 
   std::vector<float> From(const std::vector<float>& before) const {
-    Candidate best;
+    std::vector<Chosen> units;
     for (std::size_t u = 0; u < units_.size(); ++u) {
       float dose = 0;
       for (const std::size_t c : units_[u])
         dose += before[c] / static_cast<float>(units_[u].size());
-      if (dose > kNoDose) best.units.push_back({u, std::min(dose, kMostDose)});
+      if (dose > kNoDose) units.push_back({u, std::min(dose, kMostDose)});
     }
-    std::ranges::sort(best.units, std::greater{}, &Chosen::dose);
-    if (best.units.size() > kMostUnits) best.units.resize(kMostUnits);
-    Rate(best, kFinalRounds);
-    for (int move = 0; move < kMostMoves && Move(best); ++move) {
-    }
+    std::ranges::sort(units, std::greater{}, &Chosen::dose);
+    if (units.size() > kMostUnits) units.resize(kMostUnits);
+    Candidate best = BestFrom({});
+    // Units that were there keep the search where it was; none may be right after a change.
+    if (!units.empty()) best = std::ranges::min(best, BestFrom(units), {}, &Candidate::cost);
     return DosesOf(best);
   }
 
@@ -139,6 +139,14 @@ class Choice {
           found.dot(left * found) - 2 * found.dot(wanted) - all_.missed_ways.dot(alone) + cost +
           2 * solver.matrixLLT().diagonal().array().log().sum() - sure.array().log().sum();
     }
+  }
+
+  Candidate BestFrom(std::vector<Chosen> units) const {
+    Candidate best{std::move(units), kWorst};
+    Rate(best, kFinalRounds);
+    for (int move = 0; move < kMostMoves && Move(best); ++move) {
+    }
+    return best;
   }
 
   /// To the best of all candidates that differ by one unit, if one is better.

@@ -22,7 +22,7 @@ struct Evidence {
 
 /// Which units explain a picture with the fewest doses, and how much of each, both sides alike: a
 /// search that adds, drops or exchanges one unit at a time as long as it gains, from those of
-/// `before`. A set of units is the better the likelier the picture is by it, with all it may do
+/// `before` and from none, of which the better counts. A set of units is the better the likelier the picture is by it, with all it may do
 /// along the variations in which heads differ with these doses (marginal likelihood), and the less
 /// its doses cost (DoseCost). `evidence` is of a state without units; place and gaze are free,
 /// the turn is sure to kUnsureOfTurn.
