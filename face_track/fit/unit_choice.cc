@@ -83,7 +83,8 @@ class Choice {
     std::ranges::sort(units, std::greater{}, &Chosen::dose);
     if (units.size() > kMostUnits) units.resize(kMostUnits);
     Candidate best = BestFrom({});
-    // Units that were there keep the search where it was; none may be right after a change.
+    // From the units of the picture before, the search may end at a set that is likelier than its
+    // neighbours and yet wrong; from none, at another one.
     if (!units.empty()) best = std::ranges::min(best, BestFrom(units), {}, &Candidate::cost);
     return DosesOf(best);
   }

@@ -22,12 +22,12 @@ struct Evidence {
 
 /// Which units explain a picture with the fewest doses, and how much of each, both sides alike: a
 /// search that adds, drops or exchanges one unit at a time as long as it gains, from those of
-/// `before` and from none, of which the better counts. A set of units is the better the likelier the picture is by it, with all it may do
-/// along the variations in which heads differ with these doses (marginal likelihood), and the less
-/// its doses cost (DoseCost). `evidence` is of a state without units; place and gaze are free,
-/// the turn is sure to kUnsureOfTurn.
-/// `opposite`: of each channel that of the other side, or a number beyond all. Returns a dose of
-/// each channel, 0 where it is none of a unit. Pure; thread: any.
+/// `before` and from none, of which the better counts. A set of units is the better the likelier
+/// the picture is by it, with all it may do along the variations in which heads differ with these
+/// doses (marginal likelihood), and the less its doses cost (DoseCost). `evidence` is of a state
+/// without units; place and gaze are free, the turn is sure to kUnsureOfTurn. `opposite`: of each
+/// channel that of the other side, or a number beyond all. Returns a dose of each channel, 0 where
+/// it is none of a unit. Pure; thread: any.
 std::vector<float> ChooseUnits(const SeenFace& face, const std::vector<std::size_t>& opposite,
                                const Evidence& evidence, const std::vector<float>& before);
 

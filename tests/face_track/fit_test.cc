@@ -86,8 +86,10 @@ class FrameFitTest : public testing::Test {
     for (std::size_t c = 0; c < face.channels.size(); ++c) {
       const Channel& channel = face.channels[c];
       if (channel.kind != Channel::Kind::kUnit) continue;
+      // Heads raise the upper lid (AU 5) by so different heights that its dose is told less surely.
       if (IsOneOf(units, channel))
-        EXPECT_NEAR(found.doses[c], 0.7, 0.17) << channel.Name() << " of" << told;
+        EXPECT_NEAR(found.doses[c], 0.7, channel.unit == 5 ? 0.17 : 0.15)
+            << channel.Name() << " of" << told;
       else
         others += found.doses[c];
     }
